@@ -1,0 +1,147 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace deixis::config {
+
+/// What is wrong with a configuration: names the file, the line and the key, and says the cure.
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Collects what is wrong with a config struct, so that Validate() can report everything at once.
+class Faults {
+ public:
+  /// Notes `fault` ("must be positive") against `key` unless `holds`.
+  void Require(bool holds, const std::string& key, const std::string& fault);
+  void ThrowIfAny() const;  ///< Throws ConfigError listing all faults.
+
+ private:
+  std::vector<std::string> faults_;
+};
+
+/// How complete a file has to be.
+enum class Completeness {
+  kDefaultsAllowed,  ///< Keys that are left out keep their defaults.
+  kEveryKey          ///< Every key must be stated: shipped files are the parameter manual.
+};
+
+/// A YAML mapping that is being read into a struct. A config struct names its fields in
+/// `template <typename Visitor> void Visit(Visitor& v) { v("rate_hz", rate_hz); ... }`; fields may
+/// be bool, integers, double, std::string, enumerations with an `EnumNames`, structs with `Visit`,
+/// and std::vector of these. An enumeration gets its names from a function beside it: `inline auto
+/// EnumNames(Pace) { return std::vector<std::pair<std::string, Pace>>{...}; }`.
+class Reader {
+ public:
+  ~Reader();
+  Reader(Reader&&) noexcept;
+
+  template <typename T>
+  void operator()(const char* name, T& field) {
+    if (const auto child = Child(name)) child->Read(field);
+  }
+
+  template <typename T>
+  void Read(T& field) {
+    if constexpr (std::is_enum_v<T>) {
+      ReadEnum(field);
+    } else if constexpr (HasVisit<T>::value) {
+      ReadStruct(field);
+    } else {
+      ReadScalar(field);
+    }
+  }
+
+  template <typename T>
+  void Read(std::vector<T>& field) {
+    field.clear();
+    for (Reader& element : Elements()) {
+      T value{};
+      element.Read(value);
+      field.push_back(std::move(value));
+    }
+  }
+
+ private:
+  template <typename T, typename = void>
+  struct HasVisit : std::false_type {};
+  template <typename T>
+  struct HasVisit<T, std::void_t<decltype(std::declval<T&>().Visit(std::declval<Reader&>()))>>
+      : std::true_type {};
+
+  template <typename T>
+  void ReadEnum(T& field) {
+    std::string word;
+    ReadScalar(word);
+    std::string allowed;
+    for (const auto& [name, value] : EnumNames(T{})) {
+      if (name == word) {
+        field = value;
+        return;
+      }
+      allowed += (allowed.empty() ? "" : ", ") + name;
+    }
+    Fail("is '" + word + "' but must be one of: " + allowed);
+  }
+
+  template <typename T>
+  void ReadStruct(T& field) {
+    RequireMapping();
+    field.Visit(*this);
+    RejectUnknownKeys();
+  }
+
+  void ReadScalar(bool& field);
+  void ReadScalar(int& field);
+  void ReadScalar(std::int64_t& field);
+  void ReadScalar(std::uint64_t& field);
+  void ReadScalar(double& field);
+  void ReadScalar(std::string& field);
+
+  std::unique_ptr<Reader> Child(const char* name);  ///< nullptr when the key is left out.
+  std::vector<Reader> Elements();
+  void RequireMapping();
+  void RejectUnknownKeys();
+  [[noreturn]] void Fail(const std::string& fault) const;
+
+  struct State;
+  explicit Reader(std::unique_ptr<State> state);
+  friend Reader OpenFile(const std::filesystem::path&, const std::vector<std::string>&,
+                         Completeness);
+  std::unique_ptr<State> state_;
+};
+
+/// Opens a YAML file and sets `overrides` ("tracker.rate_hz=30", dots for nested keys, YAML values)
+/// over its values. Throws ConfigError when it cannot be read, has duplicate keys, or is not a
+/// mapping.
+Reader OpenFile(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                Completeness completeness);
+
+/// Reads `path` into a T: defaults first, then the file, then `overrides`, then T::Validate().
+/// Unknown and duplicate keys are rejected. Throws ConfigError naming file, line and key.
+template <typename T>
+T Load(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
+       Completeness completeness = Completeness::kDefaultsAllowed) {
+  T value{};
+  OpenFile(path, overrides, completeness).Read(value);
+  try {
+    value.Validate();
+  } catch (const ConfigError& error) {
+    throw ConfigError(path.string() + ": " + error.what());
+  }
+  return value;
+}
+
+/// Where a shipped configuration file lies: `name` itself if it is a path that exists, else under
+/// $DEIXIS_CONFIG_DIR, else beside the installed or built program (../share/deixis/config), else
+/// the source tree. Throws ConfigError listing the places that were searched.
+std::filesystem::path FindConfig(const std::string& name);
+
+}  // namespace deixis::config

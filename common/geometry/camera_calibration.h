@@ -1,0 +1,36 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/time/timestamp.h"
+
+namespace deixis::geometry {
+
+/// Lens model of a camera, by OpenCV's names and order of coefficients.
+enum class DistortionModel { kNone, kPlumbBob, kRational, kFisheye };
+
+/// Pinhole camera with lens distortion. Camera optical frame: x right, y down, z forward, metres;
+/// pixels with the origin at the centre of the top-left pixel.
+struct CameraCalibration {
+  Timestamp time;                                             ///< Of the image that it goes with.
+  std::string camera;                                         ///< Name of the image it describes.
+  int width_px = 0;                                           ///< Image width.
+  int height_px = 0;                                          ///< Image height.
+  DistortionModel distortion_model = DistortionModel::kNone;  ///< Lens model.
+  std::vector<double> distortion;                             ///< k1 k2 p1 p2 k3 ... as OpenCV.
+  Eigen::Vector2d focal_px = Eigen::Vector2d::Zero();         ///< Focal lengths fx, fy.
+  Eigen::Vector2d principal_point_px = Eigen::Vector2d::Zero();  ///< cx, cy.
+  Eigen::Matrix3d rectification = Eigen::Matrix3d::Identity();   ///< rectified_from_camera.
+  bool is_calibrated = false;  ///< False: guessed from the field of view.
+};
+
+/// A camera without distortion whose horizontal field of view is `horizontal_fov_rad`; marked as
+/// not calibrated. Throws std::invalid_argument on a size or an angle that no camera has.
+CameraCalibration GuessCalibration(int width_px, int height_px, double horizontal_fov_rad);
+
+/// Pixel of a point in the camera's frame (3 values, metres, z > 0), distortion included.
+Eigen::Vector2d Project(const CameraCalibration& calibration,
+                        const Eigen::Vector3d& point_in_camera);
+
+}  // namespace deixis::geometry

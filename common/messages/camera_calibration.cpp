@@ -1,0 +1,87 @@
+#include "common/messages/camera_calibration.h"
+
+#include <array>
+#include <deixis/camera_calibration_t.hpp>
+#include <utility>
+
+#include "common/messages/wire.h"
+
+namespace deixis::messages {
+namespace {
+
+using geometry::CameraCalibration;
+using geometry::DistortionModel;
+using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+constexpr std::array<std::pair<const char*, DistortionModel>, 4> kModels{{
+    {"none", DistortionModel::kNone},
+    {"plumb_bob", DistortionModel::kPlumbBob},
+    {"rational", DistortionModel::kRational},
+    {"fisheye", DistortionModel::kFisheye},
+}};
+
+DistortionModel ToModel(const std::string& word) {
+  for (const auto& [name, model] : kModels) {
+    if (word == name) return model;
+  }
+  throw Rejected("out_of_range");
+}
+
+std::string FromModel(DistortionModel wanted) {
+  for (const auto& [name, model] : kModels) {
+    if (model == wanted) return name;
+  }
+  throw std::logic_error("distortion model without a name");
+}
+
+void RequireSensible(const CameraCalibration& calibration) {
+  const std::int64_t pixels = std::int64_t{calibration.width_px} * calibration.height_px;
+  const bool is_sensible = calibration.width_px > 0 && calibration.height_px > 0 &&
+                           pixels <= kMostPixels && calibration.focal_px.minCoeff() > 0.0;
+  if (!is_sensible) throw Rejected("out_of_range");
+}
+
+}  // namespace
+
+CameraCalibration Codec<CameraCalibration>::Decode(Bytes bytes, Header& header) {
+  const auto message = DecodeWire<camera_calibration_t>(bytes);
+  RequireCount(message.n_distortion, kMostDistortion);
+  header = {{message.utime}, message.sequence};
+  CameraCalibration calibration;
+  calibration.time = {message.utime};
+  calibration.camera = message.camera;
+  calibration.width_px = message.width_px;
+  calibration.height_px = message.height_px;
+  calibration.distortion_model = ToModel(message.distortion_model);
+  for (const double value : message.distortion) calibration.distortion.push_back(Finite(value));
+  calibration.focal_px = ToVector<2>(message.focal_px);
+  calibration.principal_point_px = ToVector<2>(message.principal_point_px);
+  const auto rectification = ToVector<9>(message.rectification);
+  calibration.rectification = Eigen::Map<const RowMajor3d>(rectification.data());
+  calibration.is_calibrated = message.is_calibrated != 0;
+  RequireSensible(calibration);
+  return calibration;
+}
+
+std::vector<std::uint8_t> Codec<CameraCalibration>::Encode(const CameraCalibration& calibration,
+                                                           std::int64_t sequence) {
+  camera_calibration_t message{};
+  message.utime = calibration.time.microseconds;
+  message.sequence = sequence;
+  message.camera = calibration.camera;
+  message.width_px = calibration.width_px;
+  message.height_px = calibration.height_px;
+  message.distortion_model = FromModel(calibration.distortion_model);
+  for (const double value : calibration.distortion) message.distortion.push_back(Outgoing(value));
+  message.n_distortion = static_cast<std::int32_t>(message.distortion.size());
+  FromVector(calibration.focal_px, message.focal_px);
+  FromVector(calibration.principal_point_px, message.principal_point_px);
+  const RowMajor3d rectification = calibration.rectification;
+  FromVector(Eigen::Map<const Eigen::Matrix<double, 9, 1>>(rectification.data()),
+             message.rectification);
+  message.is_calibrated = calibration.is_calibrated;
+  message.parent_from_camera.rotation_wxyz[0] = 1.0;
+  return EncodeWire(message);
+}
+
+}  // namespace deixis::messages

@@ -1,0 +1,18 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "common/geometry/camera_calibration.h"
+#include "common/messages/codec.h"
+
+namespace deixis::messages {
+
+template <>
+struct Codec<geometry::CameraCalibration> {
+  static geometry::CameraCalibration Decode(Bytes bytes, Header& header);
+  static std::vector<std::uint8_t> Encode(const geometry::CameraCalibration& value,
+                                          std::int64_t sequence);
+  static Timestamp Time(const geometry::CameraCalibration& value) { return value.time; }
+};
+
+}  // namespace deixis::messages

@@ -1,0 +1,72 @@
+#include "common/messages/gesture.h"
+
+#include <deixis/gesture_t.hpp>
+
+#include "common/messages/scene_parts.h"
+
+namespace deixis::messages {
+namespace {
+
+using scene::Gesture;
+using scene::GestureOutcome;
+using scene::PointingRay;
+using scene::Side;
+
+PointingRay ToRay(const gesture_t& message) {
+  return {message.frame, ToVector<3>(message.ray_origin_m), ToVector<3>(message.ray_direction),
+          ToSymmetric<3>(message.ray_origin_covariance_m2),
+          ToSymmetric<3>(message.ray_direction_covariance)};
+}
+
+void FromRay(const PointingRay& ray, gesture_t& message) {
+  message.frame = ray.frame;
+  FromVector(ray.origin_m, message.ray_origin_m);
+  FromVector(ray.direction, message.ray_direction);
+  FromSymmetric(ray.origin_covariance_m2, message.ray_origin_covariance_m2);
+  FromSymmetric(ray.direction_covariance, message.ray_direction_covariance);
+}
+
+}  // namespace
+
+Gesture Codec<Gesture>::Decode(Bytes bytes, Header& header) {
+  const auto message = DecodeWire<gesture_t>(bytes);
+  header = {{message.utime}, message.sequence};
+  Gesture gesture;
+  gesture.time = {message.utime};
+  gesture.event_id = message.event_id;
+  gesture.person_id = message.person_id;
+  gesture.hand_id = message.hand_id;
+  gesture.side = Enumeration(message.side, Side::kRight);
+  gesture.name = message.name;
+  gesture.start = {message.start_utime};
+  gesture.end = {message.end_utime};
+  gesture.outcome = Enumeration(message.outcome, GestureOutcome::kAmbiguous);
+  gesture.object_id = message.object_id;
+  gesture.object_label = message.object_label;
+  gesture.candidates = ToCandidates(message.candidates);
+  if (message.has_ray) gesture.ray = ToRay(message);
+  return gesture;
+}
+
+std::vector<std::uint8_t> Codec<Gesture>::Encode(const Gesture& gesture, std::int64_t sequence) {
+  gesture_t message{};
+  message.utime = gesture.time.microseconds;
+  message.sequence = sequence;
+  message.event_id = gesture.event_id;
+  message.person_id = gesture.person_id;
+  message.hand_id = gesture.hand_id;
+  message.side = Number(gesture.side);
+  message.name = gesture.name;
+  message.start_utime = gesture.start.microseconds;
+  message.end_utime = gesture.end.microseconds;
+  message.outcome = Number(gesture.outcome);
+  message.object_id = gesture.object_id;
+  message.object_label = gesture.object_label;
+  message.candidates = FromCandidates(gesture.candidates);
+  message.n_candidates = static_cast<std::int32_t>(message.candidates.size());
+  message.has_ray = gesture.ray.has_value();
+  if (gesture.ray) FromRay(*gesture.ray, message);
+  return EncodeWire(message);
+}
+
+}  // namespace deixis::messages

@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "common/images/encoded_image.h"
+#include "common/images/image.h"
+#include "common/messages/codec.h"
+
+namespace deixis::messages {
+
+/// bot_core.image_t with a JPEG in it. Camera name and sequence travel as metadata `deixis.camera`
+/// and `deixis.sequence`.
+template <>
+struct Codec<images::EncodedImage> {
+  static images::EncodedImage Decode(Bytes bytes, Header& header);
+  static std::vector<std::uint8_t> Encode(const images::EncodedImage& value, std::int64_t sequence);
+  static Timestamp Time(const images::EncodedImage& value) { return value.time; }
+};
+
+/// Any picture of a bus: bot_core.image_t as MJPEG, BGR, RGB, grey or YUYV, or the LEFT picture of
+/// a bot_core.images_t; told apart by fingerprint. It is published as raw BGR.
+template <>
+struct Codec<images::Image> {
+  static images::Image Decode(Bytes bytes, Header& header);
+  static std::vector<std::uint8_t> Encode(const images::Image& value, std::int64_t sequence);
+  static Timestamp Time(const images::Image& value) { return value.time; }
+};
+
+}  // namespace deixis::messages

@@ -1,0 +1,17 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "common/messages/codec.h"
+#include "common/scene/object.h"
+
+namespace deixis::messages {
+
+template <>
+struct Codec<scene::Objects> {
+  static scene::Objects Decode(Bytes bytes, Header& header);
+  static std::vector<std::uint8_t> Encode(const scene::Objects& value, std::int64_t sequence);
+  static Timestamp Time(const scene::Objects& value) { return value.time; }
+};
+
+}  // namespace deixis::messages

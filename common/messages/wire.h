@@ -1,0 +1,126 @@
+#pragma once
+// For the .cpp files of this folder only: bytes to generated LCM types and back, and the checks
+// that every message gets.
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "common/messages/codec.h"
+
+namespace deixis::messages {
+
+/// Bounds by meaning: more of these is no honest message.
+inline constexpr std::int32_t kMostObjects = 4096;
+inline constexpr std::int32_t kMostHands = 256;
+inline constexpr std::int32_t kMostCandidates = 4096;
+inline constexpr std::int32_t kMostChannels = 1024;
+inline constexpr std::int32_t kMostDistortion = 14;
+inline constexpr std::int64_t kMostPixels = 64 * 1024 * 1024;
+
+/// The type's fingerprint at the head of an encoded message.
+inline std::int64_t Fingerprint(Bytes bytes) {
+  if (bytes.size < 8) throw Rejected("truncated");
+  std::uint64_t value = 0;
+  for (int i = 0; i < 8; ++i) value = value << 8 | bytes.data[i];
+  return static_cast<std::int64_t>(value);
+}
+
+/// Decodes the whole of `bytes` as a Message, or throws Rejected.
+template <typename Message>
+Message DecodeWire(Bytes bytes) {
+  if (Fingerprint(bytes) != Message::getHash()) throw Rejected("wrong_type");
+  if (bytes.size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    throw Rejected("too_large");
+  }
+  Message message{};
+  const int used = message.decode(bytes.data, 0, static_cast<int>(bytes.size));
+  if (used < 0) throw Rejected("malformed");
+  if (static_cast<std::size_t>(used) != bytes.size) throw Rejected("truncated");
+  return message;
+}
+
+template <typename Message>
+std::vector<std::uint8_t> EncodeWire(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  if (message.encode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0) {
+    throw std::logic_error("message does not encode into its own size");
+  }
+  return bytes;
+}
+
+inline void RequireCount(std::int64_t count, std::int64_t most) {
+  if (count < 0 || count > most) throw Rejected("too_many");
+}
+
+inline double Finite(double value) {
+  if (!std::isfinite(value)) throw Rejected("not_finite");
+  return value;
+}
+
+/// A number as an enumeration whose last value is `last`.
+template <typename Enum>
+Enum Enumeration(std::int8_t value, Enum last) {
+  if (value < 0 || value > static_cast<std::int8_t>(last)) throw Rejected("out_of_range");
+  return static_cast<Enum>(value);
+}
+
+template <typename Enum>
+std::int8_t Number(Enum value) {
+  return static_cast<std::int8_t>(value);
+}
+
+template <int N>
+Eigen::Matrix<double, N, 1> ToVector(const double (&values)[N]) {
+  Eigen::Matrix<double, N, 1> vector;
+  for (int i = 0; i < N; ++i) vector[i] = Finite(values[i]);
+  return vector;
+}
+
+/// Going out: a number that is not finite is our own bug.
+template <typename Derived, int N>
+void FromVector(const Eigen::MatrixBase<Derived>& vector, double (&values)[N]) {
+  if (!vector.allFinite()) throw std::logic_error("a value to be published is not finite");
+  for (int i = 0; i < N; ++i) values[i] = vector[i];
+}
+
+/// Symmetric N x N matrix from its lower triangle, row by row.
+template <int N, int M>
+Eigen::Matrix<double, N, N> ToSymmetric(const double (&triangle)[M]) {
+  static_assert(M == N * (N + 1) / 2);
+  Eigen::Matrix<double, N, N> matrix;
+  for (int row = 0, i = 0; row < N; ++row) {
+    for (int column = 0; column <= row; ++column, ++i) {
+      matrix(row, column) = matrix(column, row) = Finite(triangle[i]);
+    }
+  }
+  return matrix;
+}
+
+template <int N, int M>
+void FromSymmetric(const Eigen::Matrix<double, N, N>& matrix, double (&triangle)[M]) {
+  static_assert(M == N * (N + 1) / 2);
+  if (!matrix.allFinite()) throw std::logic_error("a covariance to be published is not finite");
+  for (int row = 0, i = 0; row < N; ++row) {
+    for (int column = 0; column <= row; ++column, ++i) triangle[i] = matrix(row, column);
+  }
+}
+
+inline double Outgoing(double value) {
+  if (!std::isfinite(value)) throw std::logic_error("a value to be published is not finite");
+  return value;
+}
+
+/// A probability or score.
+inline double Probability(double value) {
+  if (!(value >= 0.0 && value <= 1.0))
+    throw Rejected(std::isfinite(value) ? "out_of_range" : "not_finite");
+  return value;
+}
+
+}  // namespace deixis::messages

@@ -1,0 +1,34 @@
+#include "common/program/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+
+namespace deixis::program {
+
+ParsedCommandLine ParseCommandLine(const Description& description, int argc, char** argv) {
+  ParsedCommandLine parsed;
+  CommandLine& line = parsed.command_line;
+  std::string program = "deixis-" + description.name;
+  std::replace(program.begin(), program.end(), '_', '-');
+
+  CLI::App app(description.purpose, program);
+  app.set_version_flag("--version", program + " " DEIXIS_VERSION);
+  app.add_option("-c,--config", line.config_file,
+                 "Configuration file (default: the shipped " + description.name + ".yaml)");
+  app.add_option("--set", line.overrides,
+                 "Set one key of the configuration: key=value, dots for nested keys; repeatable")
+      ->allow_extra_args(false);
+  app.add_option("-l,--lcm-url", line.bus.url,
+                 "LCM URL (default: $LCM_DEFAULT_URL, else LCM's own)");
+  app.add_option("--channel-prefix", line.bus.channel_prefix, "Set in front of every channel name");
+  app.add_option("--instance", line.instance, "Tells two processes of one service apart");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    parsed.exit_code = app.exit(error) == 0 ? kStopped : kWrongCommand;
+  }
+  return parsed;
+}
+
+}  // namespace deixis::program

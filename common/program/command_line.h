@@ -1,0 +1,40 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/transport/bus.h"
+
+namespace deixis::program {
+
+/// What a program is, for --help and for its status messages.
+struct Description {
+  std::string name;     ///< "hand_tracker"; the program is deixis-hand-tracker.
+  std::string purpose;  ///< One sentence.
+};
+
+/// Exit codes of all programs.
+enum ExitCode : int {
+  kStopped = 0,  ///< Asked to stop, or the work is done.
+  kCannotWork =
+      1,  ///< Wrong configuration, missing file or device; one line says which and the cure.
+  kWrongCommand = 2,  ///< The command line is not understood.
+};
+
+/// What the command line of a service says.
+struct CommandLine {
+  std::string config_file;             ///< --config; empty: config/<name>.yaml.
+  std::vector<std::string> overrides;  ///< --set key=value
+  std::string instance;                ///< --instance
+  transport::BusOptions bus;           ///< --lcm-url, --channel-prefix
+};
+
+/// Reads the arguments. Where they ask for help or the version, or are wrong, prints what is due
+/// and returns the exit code instead.
+struct ParsedCommandLine {
+  CommandLine command_line;
+  std::optional<int> exit_code;
+};
+ParsedCommandLine ParseCommandLine(const Description& description, int argc, char** argv);
+
+}  // namespace deixis::program

@@ -1,0 +1,69 @@
+#include "common/program/service_loop.h"
+
+#include <csignal>
+#include <exception>
+
+#include "common/logging/log.h"
+
+namespace deixis::program {
+namespace {
+
+// The longest wait, so that a signal ends the loop well within a second.
+constexpr std::chrono::milliseconds kLongestWait{100};
+constexpr std::chrono::milliseconds kIdleWait{2};
+
+volatile std::sig_atomic_t stop_requested = 0;
+
+extern "C" void RequestStop(int) { stop_requested = 1; }
+
+std::chrono::milliseconds WaitAfter(StepResult result) {
+  return result == StepResult::kContinue ? std::chrono::milliseconds{0} : kIdleWait;
+}
+
+void ReportIfDue(const Hosted& hosted, transport::StatusReporter& status) {
+  const transport::Health health = hosted.health ? hosted.health() : transport::Health{};
+  status.ReportIfDue(
+      health.is_degraded ? messages::ServiceState::kDegraded : messages::ServiceState::kRunning,
+      health.text);
+}
+
+}  // namespace
+
+void StopOnSignals() {
+  struct sigaction action {};
+  action.sa_handler = RequestStop;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+bool is_stop_requested() { return stop_requested != 0; }
+
+void Loop(const Hosted& hosted, transport::Bus& bus, transport::StatusReporter& status) {
+  while (!is_stop_requested() && !bus.is_exhausted()) {
+    std::chrono::milliseconds wait = kLongestWait;
+    if (hosted.step) {
+      const StepResult result = hosted.step();
+      if (result == StepResult::kFinished) break;
+      wait = WaitAfter(result);
+    }
+    bus.Handle(wait);
+    if (bus.is_live()) ReportIfDue(hosted, status);
+  }
+  if (bus.is_live()) status.Report(messages::ServiceState::kStopping, "");
+  bus.Flush();
+}
+
+int Guarded(const Description& description, const std::function<void()>& work) {
+  logging::SetService(description.name);
+  try {
+    work();
+    return kStopped;
+  } catch (const std::exception& error) {
+    logging::Error("cannot_work", {{"reason", error.what()}});
+    return kCannotWork;
+  }
+}
+
+}  // namespace deixis::program

@@ -1,0 +1,315 @@
+#include "common/transport/bus.h"
+
+#include <lcm/lcm.h>
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <new>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "common/logging/log.h"
+#include "common/transport/log_writer.h"
+#include "common/transport/receive_buffer.h"
+#include "common/transport/sample_window.h"
+#include "common/transport/url.h"
+
+namespace deixis::transport {
+namespace {
+
+using std::chrono::milliseconds;
+using Clock = std::chrono::steady_clock;
+
+// A peer that floods must not keep the handlers of the newest pictures from their turn.
+constexpr int kMostPerHandle = 2000;
+// Results older than this come from a replayed log, not from a live camera.
+constexpr double kOldestLiveAge_ms = 10'000.0;
+constexpr std::chrono::seconds kWarnEvery{10};
+
+double MillisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::int64_t WallClock_us() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+const char* Cure(const Url& url) {
+  if (url.provider == "udpm") {
+    return "; is there a multicast route? For this host alone: ip route add 224.0.0.0/4 dev lo";
+  }
+  if (url.provider == "file") return "; does the log exist and is it readable?";
+  return "; known are udpm://, tcpq://, memq:// and file://";
+}
+
+}  // namespace
+
+struct Bus::Implementation {
+  struct Subscription {
+    Implementation* bus = nullptr;
+    std::string channel;  // on the wire
+    Delivery delivery = Delivery::kEvery;
+    Receiver receive;                                    // decoded subscribers
+    std::function<void(const RawMessage&)> receive_raw;  // raw ones
+    messages::ChannelStatistics statistics;
+    std::int64_t last_sequence = -1;
+    std::vector<std::uint8_t> newest;  // kLatest: bytes waiting for their turn
+    bool is_waiting = false;
+    Clock::time_point next_warning{};
+  };
+  struct Output {
+    messages::ChannelStatistics statistics;
+    std::int64_t next_sequence = 0;
+    bool has_warned_of_size = false;
+  };
+
+  explicit Implementation(const BusOptions& bus_options)
+      : options(bus_options), url(ResolveUrl(options.url, options.receive_buffer_bytes)) {
+    if (url.provider == "file" && url.option("mode") == "w") {
+      writer.emplace(url.network);
+      return;
+    }
+    lcm = lcm_create(url.text.c_str());
+    if (lcm == nullptr) throw BusError("cannot open LCM at '" + url.text + "'" + Cure(url));
+  }
+  ~Implementation() {
+    if (lcm != nullptr) lcm_destroy(lcm);
+  }
+
+  Subscription& Add(const std::string& wire_channel) {
+    if (lcm == nullptr)
+      throw BusError("'" + url.text + "' is being written: nothing can be received");
+    subscriptions.emplace_back();
+    Subscription& subscription = subscriptions.back();
+    subscription.bus = this;
+    subscription.channel = wire_channel;
+    subscription.statistics.channel = wire_channel;
+    subscription.statistics.direction = messages::Direction::kIn;
+    return subscription;
+  }
+
+  void Connect(Subscription& subscription) {
+    lcm_subscription_t* handle =
+        lcm_subscribe(lcm, subscription.channel.c_str(), &Implementation::OnMessage, &subscription);
+    if (handle == nullptr) {
+      throw BusError("cannot subscribe to '" + subscription.channel + "' at '" + url.text + "'" +
+                     Cure(url));
+    }
+    lcm_subscription_set_queue_capacity(handle, options.queue_capacity);
+  }
+
+  // LCM's C code calls this: nothing may escape.
+  static void OnMessage(const lcm_recv_buf_t* received, const char* channel, void* user) {
+    auto& subscription = *static_cast<Subscription*>(user);
+    const RawMessage raw{channel,
+                         {static_cast<const std::uint8_t*>(received->data), received->data_size},
+                         received->recv_utime};
+    subscription.bus->arrived++;
+    if (subscription.delivery == Delivery::kLatest) {
+      subscription.bus->KeepNewest(subscription, raw);
+    } else {
+      subscription.bus->Deliver(subscription, raw);
+    }
+  }
+
+  void KeepNewest(Subscription& subscription, const RawMessage& raw) {
+    if (subscription.is_waiting) ++subscription.statistics.skipped;
+    subscription.newest.assign(raw.bytes.data, raw.bytes.data + raw.bytes.size);
+    if (!subscription.is_waiting) waiting.push_back(&subscription);
+    subscription.is_waiting = true;
+  }
+
+  void Deliver(Subscription& subscription, const RawMessage& raw) {
+    const Clock::time_point start = Clock::now();
+    bool is_accepted = false;
+    const Accept accept = [&](const messages::Header& header) {
+      is_accepted = true;
+      ++subscription.statistics.messages;
+      CountGaps(subscription, header.sequence);
+    };
+    try {
+      if (subscription.receive_raw) {
+        accept({});
+        subscription.receive_raw(raw);
+      } else {
+        subscription.receive(raw.bytes, accept);
+      }
+    } catch (const messages::Rejected& rejected) {
+      Drop(subscription, is_accepted ? "handler_failed" : rejected.what(), rejected.what());
+    } catch (const std::bad_alloc&) {
+      Drop(subscription, is_accepted ? "handler_failed" : "too_large", "out of memory");
+    } catch (const std::exception& error) {
+      Drop(subscription, is_accepted ? "handler_failed" : "malformed", error.what());
+    } catch (...) {
+      Drop(subscription, is_accepted ? "handler_failed" : "malformed", "unknown exception");
+    }
+    if (is_accepted && !subscription.receive_raw) processing.Add(MillisecondsSince(start));
+  }
+
+  static void CountGaps(Subscription& subscription, std::int64_t sequence) {
+    if (sequence < 0) return;
+    // A smaller number is a publisher that started anew.
+    if (subscription.last_sequence >= 0 && sequence > subscription.last_sequence + 1) {
+      subscription.statistics.gaps += sequence - subscription.last_sequence - 1;
+    }
+    subscription.last_sequence = sequence;
+  }
+
+  static void Drop(Subscription& subscription, const std::string& reason, const char* what) {
+    const std::int64_t count = ++subscription.statistics.drops[reason];
+    if (Clock::now() < subscription.next_warning) return;
+    subscription.next_warning = Clock::now() + kWarnEvery;
+    logging::Warn("message_dropped", {{"channel", subscription.channel},
+                                      {"reason", reason},
+                                      {"count", count},
+                                      {"detail", what}});
+  }
+
+  void DeliverWaiting() {
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+      Subscription& subscription = *waiting[i];
+      subscription.is_waiting = false;
+      Deliver(subscription,
+              {subscription.channel, {subscription.newest.data(), subscription.newest.size()}, 0});
+    }
+    waiting.clear();
+  }
+
+  int HandleArrived(milliseconds timeout) {
+    arrived = 0;
+    int result = lcm_handle_timeout(lcm, static_cast<int>(timeout.count()));
+    for (int i = 1; result > 0 && i < kMostPerHandle; ++i) result = lcm_handle_timeout(lcm, 0);
+    DeliverWaiting();
+    if (result < 0 && url.provider == "file") is_exhausted = true;
+    if (result < 0 && url.provider != "file")
+      throw BusError("connection to '" + url.text + "' is lost");
+    return arrived;
+  }
+
+  Output& OutputOf(const std::string& wire_channel) {
+    const auto [entry, is_new] = outputs.try_emplace(wire_channel);
+    if (is_new) {
+      entry->second.statistics.channel = wire_channel;
+      entry->second.statistics.direction = messages::Direction::kOut;
+    }
+    return entry->second;
+  }
+
+  void Send(const std::string& wire_channel, messages::Bytes bytes, Timestamp time) {
+    Output& output = OutputOf(wire_channel);
+    if (writer) {
+      writer->Write(wire_channel, bytes, time);
+    } else if (lcm_publish(lcm, wire_channel.c_str(), bytes.data,
+                           static_cast<unsigned int>(bytes.size)) != 0) {
+      ++output.statistics.drops["publish_failed"];
+      return;
+    }
+    ++output.statistics.messages;
+    WarnOfSize(output, bytes.size);
+  }
+
+  void WarnOfSize(Output& output, std::size_t size) {
+    if (url.provider != "udpm" || output.has_warned_of_size) return;
+    const int buffer = ExpectedReceiveBuffer(std::atoi(url.option("recv_buf_size").c_str()));
+    if (size <= static_cast<std::size_t>(buffer)) return;
+    output.has_warned_of_size = true;
+    logging::Warn("message_exceeds_receive_buffer",
+                  {{"channel", output.statistics.channel},
+                   {"bytes", size},
+                   {"receive_buffer_bytes", buffer},
+                   {"cure", "sysctl -w net.core.rmem_max=4194304, or smaller messages"}});
+  }
+
+  BusOptions options;
+  Url url;
+  lcm_t* lcm = nullptr;
+  std::optional<LogWriter> writer;
+  std::deque<Subscription> subscriptions;  // LCM keeps their addresses
+  std::vector<Subscription*> waiting;      // kLatest, in order of arrival
+  std::map<std::string, Output> outputs;
+  SampleWindow processing;
+  SampleWindow age;
+  int arrived = 0;
+  bool is_exhausted = false;
+};
+
+Bus::Bus(const BusOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}
+Bus::~Bus() = default;
+
+void Bus::SubscribeBytes(const std::string& channel, Delivery delivery, Receiver receiver) {
+  auto& subscription = implementation_->Add(implementation_->options.channel_prefix + channel);
+  if (!implementation_->options.deliver_every_message) subscription.delivery = delivery;
+  subscription.receive = std::move(receiver);
+  implementation_->Connect(subscription);
+}
+
+void Bus::SubscribeRaw(const std::string& channels,
+                       std::function<void(const RawMessage&)> handler) {
+  auto& subscription = implementation_->Add(channels);
+  subscription.receive_raw = std::move(handler);
+  implementation_->Connect(subscription);
+}
+
+void Bus::PublishRaw(const std::string& wire_channel, messages::Bytes bytes, Timestamp time) {
+  implementation_->Send(wire_channel, bytes, time);
+}
+
+void Bus::PublishBytes(const std::string& channel, const std::vector<std::uint8_t>& bytes,
+                       Timestamp time) {
+  implementation_->Send(implementation_->options.channel_prefix + channel,
+                        {bytes.data(), bytes.size()}, time);
+}
+
+void Bus::NoteAge(Timestamp time) {
+  if (!is_live()) return;
+  const double age_ms = 1e-3 * static_cast<double>(WallClock_us() - time.microseconds);
+  if (age_ms >= 0.0 && age_ms < kOldestLiveAge_ms) implementation_->age.Add(age_ms);
+}
+
+std::int64_t Bus::NextSequence(const std::string& channel) {
+  return implementation_->OutputOf(implementation_->options.channel_prefix + channel)
+      .next_sequence++;
+}
+
+int Bus::Handle(milliseconds timeout) {
+  if (implementation_->lcm != nullptr && !implementation_->is_exhausted) {
+    return implementation_->HandleArrived(timeout);
+  }
+  std::this_thread::sleep_for(timeout);
+  return 0;
+}
+
+void Bus::Flush() {
+  if (implementation_->writer) implementation_->writer->Flush();
+}
+
+bool Bus::is_exhausted() const { return implementation_->is_exhausted; }
+
+bool Bus::is_live() const {
+  return implementation_->url.provider == "udpm" || implementation_->url.provider == "tcpq";
+}
+
+std::vector<messages::ChannelStatistics> Bus::statistics() const {
+  std::vector<messages::ChannelStatistics> all;
+  for (const auto& subscription : implementation_->subscriptions) {
+    if (subscription.receive) all.push_back(subscription.statistics);
+  }
+  for (const auto& output : implementation_->outputs) all.push_back(output.second.statistics);
+  return all;
+}
+
+Percentiles Bus::processing_ms() const { return implementation_->processing.Summarise(); }
+Percentiles Bus::age_ms() const { return implementation_->age.Summarise(); }
+
+int Bus::receive_buffer_bytes() const {
+  if (implementation_->url.provider != "udpm") return 0;
+  return GrantedReceiveBuffer(implementation_->url.network);
+}
+
+const std::string& Bus::url() const { return implementation_->url.text; }
+
+}  // namespace deixis::transport

@@ -1,0 +1,120 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "common/messages/codec.h"
+#include "common/messages/service_status.h"
+
+namespace deixis::transport {
+
+/// The bus cannot be opened or written. The message says why and what to do.
+class BusError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What a subscriber wants of a channel whose messages come faster than it works.
+enum class Delivery {
+  kEvery,  ///< All of them, in order: tracks, poses, events.
+  kLatest  ///< Only the newest: pictures. What is passed over is counted as skipped.
+};
+
+struct BusOptions {
+  std::string url;                             ///< Empty: $LCM_DEFAULT_URL, else LCM's own default.
+  std::string channel_prefix;                  ///< Set in front of every channel name.
+  int receive_buffer_bytes = 4 * 1024 * 1024;  ///< Asked of the kernel unless the URL does so.
+  int queue_capacity = 500;                    ///< Messages that may wait per channel.
+  bool deliver_every_message = false;          ///< Offline: kLatest behaves as kEvery.
+};
+
+/// An undecoded message, valid during the call that hands it over.
+struct RawMessage {
+  std::string channel;  ///< As on the wire, prefix included.
+  messages::Bytes bytes;
+  std::int64_t received_us = 0;  ///< When it arrived.
+};
+
+/// Percentiles over the last few hundred values, in milliseconds; -1 when there are none.
+struct Percentiles {
+  double p50 = -1.0;
+  double p99 = -1.0;
+};
+
+/// One connection to LCM: the only code that touches it. Not for use from several threads.
+///
+/// URLs: udpm://, tcpq://, memq:// (private to this object: services in one process share it),
+/// file:// (a log is read as liblcm paces it; with `?mode=w` one is written, its event times being
+/// the messages' own, so that the same messages give the same bytes).
+///
+/// Subscribers get plain structs. What does not decode, or makes no sense, is dropped and counted
+/// by reason. An exception that leaves a handler is counted ("handler_failed") and logged, and goes
+/// no further, since LCM would abort. Gaps in a publisher's sequence numbers are counted.
+class Bus {
+ public:
+  explicit Bus(const BusOptions& options);  ///< Throws BusError.
+  ~Bus();
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+
+  /// Calls `handler(const T&)` from Handle() for every accepted message of `channel`.
+  template <typename T, typename Handler>
+  void Subscribe(const std::string& channel, Delivery delivery, Handler handler) {
+    SubscribeBytes(channel, delivery,
+                   [handler = std::move(handler)](messages::Bytes bytes, const Accept& accept) {
+                     messages::Header header;
+                     const T value = messages::Codec<T>::Decode(bytes, header);
+                     accept(header);
+                     handler(value);
+                   });
+  }
+
+  /// Calls `handler` for every message whose wire channel matches the regular expression
+  /// `channels`.
+  void SubscribeRaw(const std::string& channels, std::function<void(const RawMessage&)> handler);
+
+  template <typename T>
+  void Publish(const std::string& channel, const T& value) {
+    PublishBytes(channel, messages::Codec<T>::Encode(value, NextSequence(channel)),
+                 messages::Codec<T>::Time(value));
+    if constexpr (!std::is_same_v<T, messages::ServiceStatus>) {
+      NoteAge(messages::Codec<T>::Time(value));
+    }
+  }
+  void PublishRaw(const std::string& wire_channel, messages::Bytes bytes, Timestamp time);
+
+  /// Waits up to `timeout` for a message, then handles what is there. Returns how many messages
+  /// arrived. Throws BusError when the connection is lost.
+  int Handle(std::chrono::milliseconds timeout);
+
+  /// Writes out what is buffered (a log being written). Throws BusError when the disk is full.
+  void Flush();
+
+  bool is_exhausted() const;  ///< A log that is being read has come to its end.
+  bool is_live() const;       ///< Other processes listen: udpm or tcpq.
+  std::vector<messages::ChannelStatistics> statistics() const;  ///< Since the start.
+  Percentiles processing_ms() const;  ///< Decoding and handling, per message.
+  Percentiles age_ms() const;         ///< Capture to publication, of published messages; live only.
+  int receive_buffer_bytes() const;   ///< Granted by the kernel; 0 without a socket.
+  const std::string& url() const;
+
+ private:
+  using Accept = std::function<void(const messages::Header&)>;
+  using Receiver = std::function<void(messages::Bytes, const Accept&)>;
+  void SubscribeBytes(const std::string& channel, Delivery delivery, Receiver receiver);
+  void PublishBytes(const std::string& channel, const std::vector<std::uint8_t>& bytes,
+                    Timestamp time);
+  void NoteAge(Timestamp time);
+  std::int64_t NextSequence(const std::string& channel);
+
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace deixis::transport

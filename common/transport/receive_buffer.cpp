@@ -1,0 +1,49 @@
+#include "common/transport/receive_buffer.h"
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace deixis::transport {
+namespace {
+
+bool IsBoundTo(int descriptor, int port) {
+  sockaddr_in address{};
+  socklen_t length = sizeof(address);
+  if (getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &length) != 0) return false;
+  return address.sin_family == AF_INET && ntohs(address.sin_port) == port;
+}
+
+// The kernel reports twice what it grants: the other half is for its own bookkeeping.
+int GrantedTo(int descriptor) {
+  int bytes = 0;
+  socklen_t length = sizeof(bytes);
+  if (getsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &bytes, &length) != 0) return 0;
+  return bytes / 2;
+}
+
+}  // namespace
+
+int GrantedReceiveBuffer(const std::string& network) {
+  const auto colon = network.rfind(':');
+  const int port = colon == std::string::npos ? 7667 : std::atoi(network.c_str() + colon + 1);
+  std::error_code ignored;
+  int largest = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", ignored)) {
+    const int descriptor = std::atoi(entry.path().filename().c_str());
+    if (IsBoundTo(descriptor, port)) largest = std::max(largest, GrantedTo(descriptor));
+  }
+  return largest;
+}
+
+int ExpectedReceiveBuffer(int asked) {
+  int most = asked;
+  std::ifstream("/proc/sys/net/core/rmem_max") >> most;
+  return std::min(asked, most);
+}
+
+}  // namespace deixis::transport

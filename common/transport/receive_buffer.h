@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+
+namespace deixis::transport {
+
+/// Receive buffer that the kernel granted to this process's LCM socket on `network` ("group:port"),
+/// bytes; 0 when there is no such socket. liblcm does not tell, so the process's own sockets are
+/// asked.
+int GrantedReceiveBuffer(const std::string& network);
+
+/// Most that the kernel grants to a subscriber that asks for `asked` bytes (net.core.rmem_max).
+int ExpectedReceiveBuffer(int asked);
+
+}  // namespace deixis::transport

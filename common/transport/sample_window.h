@@ -1,0 +1,20 @@
+#pragma once
+#include <array>
+#include <cstddef>
+
+#include "common/transport/bus.h"
+
+namespace deixis::transport {
+
+/// The last few hundred durations, for percentiles.
+class SampleWindow {
+ public:
+  void Add(double value_ms);
+  Percentiles Summarise() const;
+
+ private:
+  std::array<double, 512> values_ms_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace deixis::transport

@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+
+namespace deixis::transport {
+
+/// A taken-apart LCM URL: provider://network?key=value&key=value
+struct Url {
+  std::string text;                                  ///< The whole, ready for liblcm.
+  std::string provider;                              ///< udpm, tcpq, memq, file.
+  std::string network;                               ///< Address, or path of a log.
+  std::string option(const std::string& key) const;  ///< Empty when absent.
+};
+
+/// The URL that is meant: `text`, else $LCM_DEFAULT_URL, else LCM's default (this host only). A
+/// udpm URL without a receive buffer size gets `receive_buffer_bytes`, since with stock kernel
+/// buffers pictures are lost in silence. Throws BusError when it has no provider.
+Url ResolveUrl(const std::string& text, int receive_buffer_bytes);
+
+}  // namespace deixis::transport
