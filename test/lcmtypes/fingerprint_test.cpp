@@ -1,5 +1,5 @@
-// The fingerprints of all types. A changed one silences every log and every robot that has the old type:
-// change a published type by adding a new one (lcmtypes/README.md).
+// The fingerprints of all types. A changed one silences every log and every robot that has the old
+// type: change a published type by adding a new one (lcmtypes/README.md).
 #include <gmock/gmock.h>
 
 #include <cstdint>
@@ -48,9 +48,12 @@ TEST(Fingerprints, AreThoseOfTheCheckedInTable) {
 // Types of other LCM systems, whose fingerprints are given.
 TEST(Fingerprints, AreThoseOfTheSystemsThatTheTypesComeFrom) {
   const Fingerprints known = {
-      {"bot_core.image_t", "14739ffe13d5f5f0"},       {"bot_core.images_t", "20ba4f05e8f5e33a"},
-      {"bot_core.pointcloud2_t", "0bcd5ce4bf5a1b4a"}, {"bot_core.rigid_transform_t", "ea9ffbf2acc5c5ae"},
-      {"bot_core.joint_state_t", "3e377b4cebc593a4"}, {"kinect.frame_msg_t", "ac3dd2c457d02257"},
+      {"bot_core.image_t", "14739ffe13d5f5f0"},
+      {"bot_core.images_t", "20ba4f05e8f5e33a"},
+      {"bot_core.pointcloud2_t", "0bcd5ce4bf5a1b4a"},
+      {"bot_core.rigid_transform_t", "ea9ffbf2acc5c5ae"},
+      {"bot_core.joint_state_t", "3e377b4cebc593a4"},
+      {"kinect.frame_msg_t", "ac3dd2c457d02257"},
       {"kinect.skeleton_msg_t", "f8e4ed6f5ff9d605"},
   };
   const Fingerprints generated = GeneratedFingerprints();

@@ -1,0 +1,94 @@
+"""The command line: one table of commands, each a module with add_arguments and run."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import sys
+from dataclasses import dataclass
+
+from deixis_frontend import __version__
+from deixis_frontend.bus import missing_module
+from deixis_frontend.errors import UserError
+
+
+@dataclass(frozen=True)
+class Command:
+    """A module that offers add_arguments(parser) and run(arguments) -> int, and what it does."""
+
+    module: str
+    summary: str
+
+
+_PACKAGE = "deixis_frontend.commands"
+COMMANDS: dict[str, Command] = {
+    "start": Command(f"{_PACKAGE}.start", "start services and wait until they are ready"),
+    "stop": Command(f"{_PACKAGE}.stop", "stop services"),
+    "restart": Command(f"{_PACKAGE}.restart", "stop services and start them again"),
+    "status": Command(f"{_PACKAGE}.status", "show how the services are doing"),
+    "log": Command(f"{_PACKAGE}.log", "show what the services wrote"),
+    "demo": Command(f"{_PACKAGE}.demo", "play a clip through all services, say what is pointed at"),
+    "record": Command(f"{_PACKAGE}.record", "write the messages on the bus to a log file"),
+    "replay": Command(f"{_PACKAGE}.replay", "publish the messages of a log file"),
+    "run-offline": Command(f"{_PACKAGE}.run_offline", "log in, services, log out, without a bus"),
+    "evaluate": Command(f"{_PACKAGE}.evaluate", "measure results against recordings with truth"),
+    "train-gestures": Command("deixis_frontend.training.gestures", "learn gesture models"),
+}
+
+
+def main(argv: list[str]) -> int:
+    """Runs one command; returns the exit code: 0 done, 1 not done, 2 wrong usage."""
+    try:
+        arguments = _parser(argv).parse_args(argv)
+        return int(arguments.run(arguments))
+    except UserError as error:
+        for line in str(error).splitlines():
+            print(f"deixis: {line}", file=sys.stderr)
+        return 1
+    except ModuleNotFoundError as error:
+        if error.name not in ("lcm", "numpy", "yaml"):
+            raise
+        print(f"deixis: {missing_module(error.name)}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        # Whoever read our output has gone: not our fault, and nobody left to tell.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 141
+
+
+def add_url(parser: argparse.ArgumentParser) -> None:
+    """The option that every command has."""
+    parser.add_argument("-l", "--lcm-url", metavar="URL",
+                        help="bus to use; else $LCM_DEFAULT_URL, else LCM's own default")
+
+
+def add_commands(parser: argparse.ArgumentParser, commands: dict[str, Command], argv: list[str],
+                 metavar: str) -> None:
+    """One sub-parser per command. Only the chosen one's module is loaded: the others cost nothing."""
+    choices = parser.add_subparsers(metavar=metavar, required=True)
+    chosen = next((word for word in argv if word in commands), None)
+    for name, command in commands.items():
+        child = choices.add_parser(name, help=command.summary, description=command.summary + ".")
+        if name == chosen:
+            add_url(child)
+            module = importlib.import_module(command.module)
+            _add_arguments(module, child, argv[argv.index(name) + 1:])
+            child.set_defaults(run=module.run)
+
+
+def _add_arguments(module: object, parser: argparse.ArgumentParser, argv: list[str]) -> None:
+    if hasattr(module, "SUBCOMMANDS"):
+        add_commands(parser, module.SUBCOMMANDS, argv, "what")
+    if hasattr(module, "add_arguments"):
+        module.add_arguments(parser)
+
+
+def _parser(argv: list[str]) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="deixis", description="People perception for mobile robots over LCM.")
+    parser.add_argument("--version", action="version", version=f"deixis {__version__}")
+    add_commands(parser, COMMANDS, argv, "command")
+    return parser

@@ -1,0 +1,29 @@
+"""`deixis stop`: stops services; without names all of them and their supervisor."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from deixis_frontend.commands.system_option import (
+    add_names, add_system, open_system, print_service)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Names and the system file."""
+    add_names(parser, "what to stop (default: everything)")
+    add_system(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """0 when they are stopped, were they running or not."""
+    system, client = open_system(arguments)
+    system.resolve(arguments.names)
+    if not client.is_supervised():
+        print("nothing is running")
+        return 0
+    client.command("stop", arguments.names, print_service)
+    if not arguments.names and not client.wait_until_gone():
+        print(f"deixis: the supervisor has not ended: see {client.log_file}", file=sys.stderr)
+        return 1
+    return 0

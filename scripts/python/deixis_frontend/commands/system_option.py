@@ -1,0 +1,39 @@
+"""What the commands that deal with the supervisor have in common."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from deixis_frontend import layout as layouts
+from deixis_frontend.supervision import system_file
+from deixis_frontend.supervision.control_client import Client
+from deixis_frontend.supervision.system_file import System
+
+GOOD = ("running", "degraded", "finished")
+
+
+def add_system(parser: argparse.ArgumentParser) -> None:
+    """The option that names the system file."""
+    parser.add_argument("--system", type=Path, metavar="FILE",
+                        help="system file (default: config/system.yaml)")
+
+
+def add_names(parser: argparse.ArgumentParser, meaning: str) -> None:
+    """Groups and services to deal with."""
+    parser.add_argument("names", nargs="*", metavar="group|service", help=meaning)
+
+
+def open_system(arguments: argparse.Namespace) -> tuple[System, Client]:
+    """The system that the arguments name, and how to talk to its supervisor."""
+    layout = layouts.find()
+    system = system_file.load(arguments.system or layout.config / "system.yaml")
+    return system, Client(system, layout)
+
+
+def print_service(facts: dict[str, Any]) -> None:
+    """One line on a service that has got ready, failed or stopped."""
+    pid = f"pid {facts['pid']}" if facts["pid"] else ""
+    print(f"{facts['name']:<22} {facts['state']:<10} {pid:<12} {facts['last_error']}".rstrip(),
+          flush=True)

@@ -1,0 +1,1 @@
+"""One module per part that can be measured."""

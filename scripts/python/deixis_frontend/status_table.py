@@ -1,0 +1,82 @@
+"""The status of a system as a table for people."""
+
+from __future__ import annotations
+
+from typing import Any
+
+_HEADER = ("service", "state", "pid", "uptime", "restarts", "in Hz", "out Hz", "lost", "work ms",
+           "age ms", "CPU %", "MB")
+_LEFT = 2  # columns that are flush left
+
+
+def render(status: dict[str, Any]) -> str:
+    """The table, and below it a line for everything that needs words."""
+    rows = [_HEADER, *(_row(service) for service in status["services"])]
+    widths = [max(len(row[column]) for row in rows) for column in range(len(_HEADER))]
+    lines = [f"{status['system']} on {status['lcm_url']}, supervisor pid"
+             f" {status['supervisor_pid']}, up {duration(status['uptime_s'])}"]
+    lines += [_line(row, widths) for row in rows]
+    lines += [note for service in status["services"] for note in _notes(service)]
+    return "\n".join(lines)
+
+
+def duration(seconds: float | None) -> str:
+    """Seconds in the unit that suits them: 8 s, 12:05, 3:00:07."""
+    if seconds is None:
+        return "-"
+    minutes, rest = divmod(int(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    if hours:
+        return f"{hours}:{minutes:02}:{rest:02}"
+    return f"{minutes}:{rest:02}" if minutes else f"{rest} s"
+
+
+def lost(service: dict[str, Any]) -> int:
+    """Messages that did not arrive or were thrown away; those passed over for newer ones apart."""
+    return sum(channel["gaps"] + sum(channel["drops"].values())
+               for channel in service.get("channels", []))
+
+
+def _row(service: dict[str, Any]) -> tuple[str, ...]:
+    return (
+        service["name"], service["state"], _text(service["pid"]), duration(service["uptime_s"]),
+        str(service["restarts"]), _rate(service, "in"), _rate(service, "out"),
+        str(lost(service)) if "channels" in service else "-",
+        _percentiles(service.get("processing_ms")), _percentiles(service.get("age_ms")),
+        _text(service["cpu_percent"]), _text(service["memory_mb"]),
+    )
+
+
+def _rate(service: dict[str, Any], direction: str) -> str:
+    if "channels" not in service:
+        return "-"
+    rates = [c["rate_hz"] for c in service["channels"] if c["direction"] == direction]
+    return f"{sum(rates):.1f}"
+
+
+def _percentiles(values: dict[str, float | None] | None) -> str:
+    if not values or values["p50"] is None or values["p99"] is None:
+        return "-"
+    return f"{values['p50']:.1f}/{values['p99']:.1f}"
+
+
+def _notes(service: dict[str, Any]) -> list[str]:
+    notes = [service["last_error"] and f"last error: {service['last_error']}",
+             service.get("text"),
+             service["stranger"] and f"another one of its name speaks on this bus:"
+                                     f" {service['stranger']}"]
+    for channel in service.get("channels", []):
+        if channel["drops"]:
+            reasons = ", ".join(f"{count} {reason}" for reason, count in channel["drops"].items())
+            notes.append(f"dropped on {channel['name']}: {reasons}")
+    return [f"{service['name']}: {note}" for note in notes if note]
+
+
+def _text(value: object) -> str:
+    return "-" if value is None else str(value)
+
+
+def _line(row: tuple[str, ...], widths: list[int]) -> str:
+    cells = [cell.ljust(width) if column < _LEFT else cell.rjust(width)
+             for column, (cell, width) in enumerate(zip(row, widths, strict=True))]
+    return "  ".join(cells).rstrip()

@@ -1,0 +1,1 @@
+"""Starts the services of a system, watches them and brings them back."""

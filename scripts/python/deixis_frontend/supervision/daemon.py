@@ -1,0 +1,83 @@
+"""The supervising process: `python -m deixis_frontend.supervision.daemon`, started by `deixis start`."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import secrets
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+from deixis_frontend import layout as layouts
+from deixis_frontend.errors import UserError
+from deixis_frontend.layout import Layout
+from deixis_frontend.lcm_url import LcmUrl, parse
+from deixis_frontend.supervision import guard
+from deixis_frontend.supervision.control_server import ControlServer
+from deixis_frontend.supervision.run_folder import RunFolder
+from deixis_frontend.supervision.status_listener import StatusListener
+from deixis_frontend.supervision.supervisor import Supervisor
+from deixis_frontend.supervision.system_file import System, load
+
+_SAMPLE_EVERY_S = 1.0
+_GUARD_PAUSE_S = 0.2
+
+
+def main(argv: list[str]) -> int:
+    """Runs until everything has been stopped; what went wrong at the start goes to stderr."""
+    parser = argparse.ArgumentParser(prog="deixis-supervisor")
+    parser.add_argument("--system", type=Path, required=True)
+    parser.add_argument("--lcm-url", required=True)
+    arguments = parser.parse_args(argv)
+    try:
+        system = load(arguments.system)
+        folder = RunFolder(system.name)
+        token = secrets.token_hex(8)
+        guard.stop_all(*folder.lock(arguments.system, token))
+        asyncio.run(_run(system, layouts.find(), parse(arguments.lcm_url), folder, token))
+        folder.release()
+    except UserError as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 0
+
+
+async def _run(system: System, layout: Layout, url: LcmUrl, folder: RunFolder,
+               token: str) -> None:
+    supervisor = Supervisor(system, layout, url, token)
+    end = asyncio.Event()
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        loop.add_signal_handler(number, end.set)
+    StatusListener(url, system.channel_prefix, layout, supervisor.hear).attach(loop)
+    helpers = [asyncio.create_task(_keep_guard(token)), asyncio.create_task(_sample(supervisor))]
+    server = ControlServer(supervisor, end.set)
+    await server.serve(folder.socket)
+    await end.wait()
+    folder.hide()
+    await supervisor.stop([], lambda _: None)
+    await server.close()
+    for helper in helpers:
+        helper.cancel()
+
+
+async def _keep_guard(token: str) -> None:
+    """Has a guard beside us at all times: it ends the services if we die."""
+    while True:
+        process = await asyncio.create_subprocess_exec(
+            sys.executable, "-m", guard.__name__, token,
+            stdin=subprocess.PIPE, start_new_session=True)
+        await process.wait()
+        await asyncio.sleep(_GUARD_PAUSE_S)
+
+
+async def _sample(supervisor: Supervisor) -> None:
+    while True:
+        supervisor.sample()
+        await asyncio.sleep(_SAMPLE_EVERY_S)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,102 @@
+"""The folder of a running supervisor: its lock and its socket."""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import os
+import stat
+import tempfile
+from pathlib import Path
+
+from deixis_frontend.errors import UserError
+
+
+class RunFolder:
+    """One folder per system name and user.
+
+    It is below /tmp and not in $XDG_RUNTIME_DIR: that one is removed when the user logs out, and is
+    not there for services that start with the machine, while a supervisor lives on and must be
+    found again by whoever comes next.
+    """
+
+    def __init__(self, system_name: str) -> None:
+        base = Path(os.environ.get("DEIXIS_RUN_DIR") or _base())
+        self.system_name = system_name
+        self.path = base / hashlib.sha256(system_name.encode()).hexdigest()[:16]
+        self.socket = self.path / "control"
+        self._lock_file = self.path / "lock"
+        self._locks: list[int] = []
+
+    def create(self) -> None:
+        """Makes the folder, for this user alone."""
+        for folder in (self.path.parent, self.path):
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            facts = folder.lstat()
+            if not stat.S_ISDIR(facts.st_mode) or facts.st_uid != os.getuid():
+                raise UserError(f"{folder} belongs to someone else: remove it, or name another"
+                                " folder in DEIXIS_RUN_DIR")
+
+    def lock(self, system_file: Path, token: str) -> list[str]:
+        """Claims the system for this process; raises UserError when another one has it.
+
+        Returns the tokens of supervisors before us that may have left services behind.
+        """
+        self.create()
+        descriptor = os.open(self._lock_file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+        if not _try_lock(descriptor):
+            os.close(descriptor)
+            raise UserError(self._taken())
+        left_behind = [line for line in self._facts()[2:] if line]
+        os.ftruncate(descriptor, 0)
+        os.write(descriptor, f"{os.getpid()}\n{system_file}\n{token}\n".encode())
+        # A locked folder is passed over by those who tidy up /tmp.
+        folder = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+        _try_lock(folder)
+        self._locks = [descriptor, folder]
+        self.hide()
+        return left_behind
+
+    def hide(self) -> None:
+        """Takes the socket away: no new commands."""
+        self.socket.unlink(missing_ok=True)
+
+    def release(self) -> None:
+        """Gives the system up, with nothing left behind."""
+        self.hide()
+        os.ftruncate(self._locks[0], 0)
+        for descriptor in self._locks:
+            os.close(descriptor)
+        self._locks = []
+
+    def is_locked(self) -> bool:
+        """True while a supervisor lives."""
+        try:
+            descriptor = os.open(self._lock_file, os.O_RDWR | os.O_CLOEXEC)
+        except OSError:
+            return False
+        try:
+            return not _try_lock(descriptor)
+        finally:
+            os.close(descriptor)
+
+    def _facts(self) -> list[str]:
+        return self._lock_file.read_text(encoding="utf-8", errors="replace").splitlines()
+
+    def _taken(self) -> str:
+        pid, system_file = (*self._facts(), "?", "?")[:2]
+        return (f"the system '{self.system_name}' is looked after by process {pid} already"
+                f" ({system_file}): stop it with `deixis stop`, or give this system"
+                " another 'name' in its file")
+
+
+def _base() -> Path:
+    return Path(tempfile.gettempdir()) / f"deixis-{os.getuid()}"
+
+
+def _try_lock(descriptor: int) -> bool:
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True

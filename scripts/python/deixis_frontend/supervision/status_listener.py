@@ -1,0 +1,80 @@
+"""Hears SERVICE_STATUS on the bus, on the event loop of the supervisor."""
+
+from __future__ import annotations
+
+import asyncio
+import re
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+from deixis_frontend.bus import open_bus
+from deixis_frontend.layout import Layout
+from deixis_frontend.lcm_url import LcmUrl
+
+CHANNEL = "SERVICE_STATUS"
+STATES = ("starting", "running", "degraded", "stopping")
+
+
+class StatusListener:
+    """Calls `on_status` with every service_status_t that decodes."""
+
+    def __init__(self, url: LcmUrl, prefix: str, layout: Layout,
+                 on_status: Callable[[Any], None]) -> None:
+        layout.use_types()
+        from deixis import service_status_t
+
+        self._decode = service_status_t.decode
+        self._on_status = on_status
+        self._bus = open_bus(url)
+        self._bus.subscribe(re.escape(prefix + CHANNEL), self._handle)
+        self.refused = 0
+        self.last_heard = 0.0
+
+    def attach(self, loop: asyncio.AbstractEventLoop) -> None:
+        """Handles messages whenever the bus has some."""
+        loop.add_reader(self._bus.fileno(), self._spin)
+
+    def _spin(self) -> None:
+        while self._bus.handle_timeout(0) > 0:
+            continue
+
+    def _handle(self, _channel: str, data: bytes) -> None:
+        try:
+            message = self._decode(data)
+        except Exception as error:  # Anything may be on the bus: count it, say it once, go on.
+            self.refused += 1
+            if self.refused == 1:
+                print(f"a message on {CHANNEL} does not decode: {error}", file=sys.stderr)
+            return
+        self.last_heard = time.monotonic()
+        self._on_status(message)
+
+
+def as_facts(message: Any) -> dict[str, Any]:
+    """A service_status_t as plain values for JSON; -1 becomes None where it means unknown."""
+    return {
+        "version": message.version,
+        "text": message.text,
+        "channels": [_channel(channel) for channel in message.channels],
+        "processing_ms": _percentiles(message.processing_ms_p50, message.processing_ms_p99),
+        "age_ms": _percentiles(message.age_ms_p50, message.age_ms_p99),
+        "receive_buffer_bytes": message.receive_buffer_bytes,
+    }
+
+
+def _channel(channel: Any) -> dict[str, Any]:
+    return {
+        "name": channel.name,
+        "direction": "out" if channel.direction == channel.OUT else "in",
+        "messages": channel.messages,
+        "rate_hz": channel.rate_hz,
+        "gaps": channel.gaps,
+        "skipped": channel.skipped,
+        "drops": {drop.reason: drop.count for drop in channel.drops},
+    }
+
+
+def _percentiles(p50: float, p99: float) -> dict[str, float | None]:
+    return {"p50": p50 if p50 >= 0 else None, "p99": p99 if p99 >= 0 else None}

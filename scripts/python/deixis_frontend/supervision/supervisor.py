@@ -1,0 +1,132 @@
+"""All services of one system: started in order, stopped together, looked after in between."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from deixis_frontend.layout import Layout
+from deixis_frontend.lcm_url import LcmUrl
+from deixis_frontend.supervision.guard import TOKEN_VARIABLE
+from deixis_frontend.supervision.rotating_log import RotatingLog
+from deixis_frontend.supervision.supervised_service import READY, Launch, State, SupervisedService
+from deixis_frontend.supervision.system_file import ServiceEntry, System
+
+Report = Callable[[dict[str, Any]], None]
+_GOOD_ENDS = (*READY, State.FINISHED)
+
+
+class Supervisor:
+    """Owns the services. All methods run on one event loop."""
+
+    def __init__(self, system: System, layout: Layout, url: LcmUrl, token: str) -> None:
+        self.system = system
+        self._layout = layout
+        self._url = url
+        self._token = token
+        self._services = {
+            name: SupervisedService(entry, self._launch(entry), self._log(name))
+            for name, entry in system.services.items()
+        }
+        self._by_identity = {
+            (entry.service, entry.instance): self._services[name]
+            for name, entry in system.services.items()
+        }
+        self._began = time.monotonic()
+
+    async def start(self, names: list[str], report: Report) -> bool:
+        """Starts groups and services (none named: those of `start`); true when all got ready."""
+        named = names or list(self.system.start) or list(self.system.services)
+        wanted = self.system.with_needs(self.system.resolve(named))
+        for name in wanted:  # Those that others wait for come first.
+            await self._services[name].start(*self._predecessors(name, wanted))
+        await asyncio.gather(*(self._report_settled(name, report) for name in wanted))
+        return all(self._services[name].state in _GOOD_ENDS for name in wanted)
+
+    async def stop(self, names: list[str], report: Report) -> None:
+        """Stops groups and services; none named: all."""
+        wanted = self.system.resolve(names) if names else list(self._services)
+        active = [name for name in wanted if self._services[name].state is not State.STOPPED]
+        await asyncio.gather(*(self._stop_one(name, report) for name in active))
+
+    async def restart(self, names: list[str], report: Report) -> bool:
+        """Stops groups and services and starts them again; none named: all that are not stopped."""
+        wanted = self.system.resolve(names) if names else self.wanted()
+        await self.stop(wanted, lambda _: None)
+        return await self.start(wanted, report)
+
+    def wanted(self) -> list[str]:
+        """The services that somebody started and nobody stopped."""
+        return [name for name, s in self._services.items() if s.state is not State.STOPPED]
+
+    def hear(self, message: Any) -> None:
+        """Hands a status message to its service."""
+        service = self._by_identity.get((message.service, message.instance))
+        if service:
+            service.hear(message)
+
+    def sample(self) -> None:
+        """Measures all services; call it about once a second."""
+        for service in self._services.values():
+            service.sample()
+
+    def status(self) -> dict[str, Any]:
+        """Everything that `status` shows."""
+        return {
+            "system": self.system.name,
+            "file": str(self.system.path),
+            "lcm_url": str(self._url),
+            "supervisor_pid": os.getpid(),
+            "uptime_s": round(time.monotonic() - self._began, 1),
+            "services": [service.facts() for service in self._services.values()],
+        }
+
+    def log_folder(self) -> Path:
+        """Folder of the services' log files."""
+        return log_folder(self.system, self._layout)
+
+    async def _report_settled(self, name: str, report: Report) -> None:
+        await self._services[name].settled()
+        report(self._services[name].facts())
+
+    async def _stop_one(self, name: str, report: Report) -> None:
+        await self._services[name].stop()
+        report(self._services[name].facts())
+
+    def _predecessors(
+            self, name: str, wanted: list[str]
+    ) -> tuple[list[SupervisedService], list[SupervisedService]]:
+        entry = self.system.services[name]
+        before = [self._services[other] for other in entry.after
+                  if other in wanted or self._services[other].is_active]
+        return before, [self._services[other] for other in entry.needs]
+
+    def _launch(self, entry: ServiceEntry) -> Launch:
+        environment = {**os.environ, TOKEN_VARIABLE: self._token, "LCM_DEFAULT_URL": str(self._url)}
+        return Launch(lambda: self._command(entry), environment, self._layout.state)
+
+    def _command(self, entry: ServiceEntry) -> list[str]:
+        command = [str(self._layout.program(entry.program)), "--lcm-url", str(self._url)]
+        if self.system.channel_prefix:
+            command += ["--channel-prefix", self.system.channel_prefix]
+        if entry.instance:
+            command += ["--instance", entry.instance]
+        if entry.config:
+            command += ["--config", str(self._layout.config_file(entry.config))]
+        for key, value in entry.settings.items():
+            command += ["--set", f"{key}={value}"]
+        return [*command, *entry.args]
+
+    def _log(self, name: str) -> RotatingLog:
+        settings = self.system.log
+        return RotatingLog(self.log_folder() / f"{name}.log", int(settings.size_mb * 1e6),
+                           settings.count)
+
+
+def log_folder(system: System, layout: Layout) -> Path:
+    """Folder of a system's log files."""
+    return layout.state / system.log.folder

@@ -1,0 +1,103 @@
+"""LCM logs as iterators of decoded messages.
+
+    for log_time_us, channel, message in logs.read("walk.lcmlog", channels={"GESTURES"}):
+        ...
+
+The type of a message is told by its fingerprint; one that is not known stays bytes.
+"""
+import importlib
+import io
+import os
+import struct
+
+import lcm
+
+PACKAGES = ("deixis", "bot_core", "kinect")
+
+
+def types_by_fingerprint(packages=PACKAGES):
+    """All generated types: 8 bytes -> class. ImportError if the generated packages are not on the path."""
+    types = {}
+    for package in packages:
+        for name, value in vars(importlib.import_module(package)).items():
+            if isinstance(value, type) and hasattr(value, "_get_packed_fingerprint"):
+                types[value._get_packed_fingerprint()] = value
+    return types
+
+
+def decode(data, types=None):
+    """The message in `data` (bytes), or `data` itself if its fingerprint is not known.
+
+    ValueError if the fingerprint is known and the rest does not fit.
+    """
+    data = bytes(data)
+    message_type = (types_by_fingerprint() if types is None else types).get(data[:8])
+    if message_type is None:
+        return data
+    stream = io.BytesIO(data)
+    try:
+        message = message_type.decode(stream)
+    except (struct.error, UnicodeDecodeError, IndexError, OverflowError, MemoryError) as error:
+        raise ValueError(f"{_name(message_type)} of {len(data)} bytes does not decode: {error}") from None
+    if stream.tell() != len(data):
+        raise ValueError(f"{_name(message_type)} ends after {stream.tell()} of {len(data)} bytes")
+    return message
+
+
+def read(path, channels=None):
+    """Yields (log_time_us, channel, message) of a log in the order of the file.
+
+    `log_time_us` is when the logger received the message, microseconds; the capture time is in the message.
+    `channels` is a set of names, None for all. FileNotFoundError if there is no such file, ValueError (with channel
+    and time) if a message of a known type does not decode.
+    """
+    if not os.path.isfile(path):
+        raise FileNotFoundError(f"no log file {path}")
+    types = types_by_fingerprint()
+    log = lcm.EventLog(str(path), "r")
+    try:
+        for event in log:
+            if channels is not None and event.channel not in channels:
+                continue
+            try:
+                message = decode(event.data, types)
+            except ValueError as error:
+                raise ValueError(f"{path}: {event.channel} at {event.timestamp} us: {error}") from None
+            yield event.timestamp, event.channel, message
+    finally:
+        log.close()
+
+
+class Writer:
+    """Writes a log; a context manager. An existing file raises FileExistsError.
+
+        with logs.Writer("out.lcmlog") as log:
+            log.write(message.utime, "GESTURES", message)
+    """
+
+    def __init__(self, path):
+        if os.path.exists(path):
+            raise FileExistsError(f"{path} exists")
+        self._log = lcm.EventLog(str(path), "w")
+
+    def write(self, log_time_us, channel, message):
+        """Appends a message (or its bytes) at a time in microseconds. ValueError if the channel name is not usable."""
+        if not 0 < len(channel.encode()) <= 63:
+            raise ValueError(f"channel '{channel}' must have 1 to 63 bytes")
+        self._log.write_event(log_time_us, channel, message if isinstance(message, bytes) else message.encode())
+
+    def close(self):
+        """Ends the file."""
+        if self._log is not None:
+            self._log.close()
+            self._log = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+def _name(message_type):
+    return f"{message_type.__module__.partition('.')[0]}.{message_type.__name__}"
