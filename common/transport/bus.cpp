@@ -57,6 +57,7 @@ struct Bus::Implementation {
     std::function<void(const RawMessage&)> receive_raw;  // raw ones
     messages::ChannelStatistics statistics;
     std::int64_t last_sequence = -1;
+    std::int64_t skipped_since_delivery = 0;
     std::vector<std::uint8_t> newest;  // kLatest: bytes waiting for their turn
     bool is_waiting = false;
     Clock::time_point next_warning{};
@@ -117,7 +118,10 @@ struct Bus::Implementation {
   }
 
   void KeepNewest(Subscription& subscription, const RawMessage& raw) {
-    if (subscription.is_waiting) ++subscription.statistics.skipped;
+    if (subscription.is_waiting) {
+      ++subscription.statistics.skipped;
+      ++subscription.skipped_since_delivery;
+    }
     subscription.newest.assign(raw.bytes.data, raw.bytes.data + raw.bytes.size);
     if (!subscription.is_waiting) waiting.push_back(&subscription);
     subscription.is_waiting = true;
@@ -152,11 +156,12 @@ struct Bus::Implementation {
 
   static void CountGaps(Subscription& subscription, std::int64_t sequence) {
     if (sequence < 0) return;
-    // A smaller number is a publisher that started anew.
-    if (subscription.last_sequence >= 0 && sequence > subscription.last_sequence + 1) {
-      subscription.statistics.gaps += sequence - subscription.last_sequence - 1;
-    }
+    // A smaller number is a publisher that started anew; what was skipped was not lost.
+    const std::int64_t missing =
+        sequence - subscription.last_sequence - 1 - subscription.skipped_since_delivery;
+    if (subscription.last_sequence >= 0 && missing > 0) subscription.statistics.gaps += missing;
     subscription.last_sequence = sequence;
+    subscription.skipped_since_delivery = 0;
   }
 
   static void Drop(Subscription& subscription, const std::string& reason, const char* what) {

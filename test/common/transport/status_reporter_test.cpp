@@ -1,0 +1,77 @@
+#include "common/transport/status_reporter.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include "common/messages/hands.h"
+
+namespace deixis::transport {
+namespace {
+
+using messages::ServiceStatus;
+using scene::Hands;
+
+class StatusReporterTest : public testing::Test {
+ protected:
+  StatusReporterTest() {
+    bus_.Subscribe<ServiceStatus>(
+        kStatusChannel, Delivery::kEvery,
+        [this](const ServiceStatus& status) { received_.push_back(status); });
+  }
+  static BusOptions Memory() {
+    BusOptions options;
+    options.url = "memq://";
+    return options;
+  }
+  void HandleAll() {
+    while (bus_.Handle(std::chrono::milliseconds{0}) > 0) {
+    }
+  }
+  Bus bus_{Memory()};
+  std::vector<ServiceStatus> received_;
+};
+
+TEST_F(StatusReporterTest, SaysWhoAndHow) {
+  StatusReporter reporter({"hand_tracker", "left"}, bus_, bus_);
+  reporter.Report(messages::ServiceState::kDegraded, "no face");
+  HandleAll();
+  ASSERT_EQ(received_.size(), 1u);
+  EXPECT_EQ(received_[0].service, "hand_tracker");
+  EXPECT_EQ(received_[0].instance, "left");
+  EXPECT_EQ(received_[0].pid, getpid());
+  EXPECT_EQ(received_[0].version, DEIXIS_VERSION);
+  EXPECT_EQ(received_[0].state, messages::ServiceState::kDegraded);
+  EXPECT_EQ(received_[0].text, "no face");
+}
+
+TEST_F(StatusReporterTest, ReportsAtOnceAndThenNotBeforeASecond) {
+  StatusReporter reporter({"x", ""}, bus_, bus_);
+  for (int i = 0; i < 5; ++i) reporter.ReportIfDue(messages::ServiceState::kRunning, "");
+  HandleAll();
+  EXPECT_EQ(received_.size(), 1u);
+}
+
+TEST_F(StatusReporterTest, CarriesTheCountersOfEveryChannel) {
+  bus_.Subscribe<Hands>("HANDS", Delivery::kEvery, [](const Hands&) {});
+  bus_.Publish("HANDS", Hands{});
+  bus_.PublishRaw("HANDS", {nullptr, 0}, {0});
+  HandleAll();
+  StatusReporter reporter({"x", ""}, bus_, bus_);
+  reporter.Report(messages::ServiceState::kRunning, "");
+  HandleAll();
+  ASSERT_EQ(received_.size(), 1u);
+  std::int64_t in = 0;
+  std::int64_t out = 0;
+  std::int64_t dropped = 0;
+  for (const auto& channel : received_[0].channels) {
+    if (channel.channel != "HANDS") continue;
+    (channel.direction == messages::Direction::kIn ? in : out) += channel.messages;
+    for (const auto& drop : channel.drops) dropped += drop.second;
+  }
+  EXPECT_EQ(in, 1);
+  EXPECT_EQ(out, 2);
+  EXPECT_EQ(dropped, 1);
+}
+
+}  // namespace
+}  // namespace deixis::transport

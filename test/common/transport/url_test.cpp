@@ -1,0 +1,59 @@
+#include "common/transport/url.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "common/transport/bus.h"
+#include "common/transport/sample_window.h"
+
+namespace deixis::transport {
+namespace {
+
+TEST(Url, GetsAReceiveBufferWhereNoneIsStated) {
+  EXPECT_EQ(ResolveUrl("udpm://239.255.1.1:7000?ttl=0", 1000).text,
+            "udpm://239.255.1.1:7000?ttl=0&recv_buf_size=1000");
+  EXPECT_EQ(ResolveUrl("udpm://239.255.1.1:7000", 1000).text,
+            "udpm://239.255.1.1:7000?recv_buf_size=1000");
+}
+
+TEST(Url, KeepsAStatedReceiveBuffer) {
+  const std::string text = "udpm://239.255.1.1:7000?recv_buf_size=5&ttl=1";
+  EXPECT_EQ(ResolveUrl(text, 1000).text, text);
+}
+
+TEST(Url, LeavesOtherProvidersAlone) {
+  EXPECT_EQ(ResolveUrl("memq://", 1000).text, "memq://");
+  const Url log = ResolveUrl("file:///tmp/a.lcmlog?mode=w", 1000);
+  EXPECT_EQ(log.network, "/tmp/a.lcmlog");
+  EXPECT_EQ(log.option("mode"), "w");
+  EXPECT_EQ(log.option("speed"), "");
+}
+
+TEST(Url, ComesFromTheEnvironmentWhereNoneIsGiven) {
+  setenv("LCM_DEFAULT_URL", "memq://", 1);
+  EXPECT_EQ(ResolveUrl("", 1000).provider, "memq");
+  unsetenv("LCM_DEFAULT_URL");
+  EXPECT_EQ(ResolveUrl("", 1000).network, "239.255.76.67:7667");
+}
+
+TEST(Url, WithoutProviderIsAnError) {
+  EXPECT_THROW(ResolveUrl("239.255.1.1:7000", 1000), BusError);
+}
+
+TEST(Url, OfAnUnknownProviderIsAnErrorWhenOpened) {
+  BusOptions options;
+  options.url = "carrier_pigeon://";
+  EXPECT_THROW(Bus{options}, BusError);
+}
+
+TEST(SampleWindow, SummarisesTheLatestValues) {
+  SampleWindow window;
+  EXPECT_EQ(window.Summarise().p50, -1.0);
+  for (int i = 0; i <= 1000; ++i) window.Add(i < 489 ? 1e6 : i);
+  EXPECT_NEAR(window.Summarise().p50, 745.0, 1.0);
+  EXPECT_NEAR(window.Summarise().p99, 995.0, 1.0);
+}
+
+}  // namespace
+}  // namespace deixis::transport
