@@ -56,6 +56,6 @@ void ConstantAccelerationFilter::Update(double position, double sigma) {
   covariance_ = keep * covariance_ * keep.transpose() + sigma * sigma * gain * gain.transpose();
 }
 
-void ConstantAccelerationFilter::Hold(double position) { state_ = {position, 0.0, 0.0}; }
+void ConstantAccelerationFilter::Slow(double share) { state_.tail<2>() *= share; }
 
 }  // namespace deixis::filtering

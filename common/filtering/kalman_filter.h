@@ -21,8 +21,8 @@ class ConstantAccelerationFilter {
   void Predict(double elapsed_s);
   /// Takes in a position measured with standard deviation `sigma` > 0.
   void Update(double position, double sigma);
-  /// Makes the state stand still at `position`, its sigma kept.
-  void Hold(double position);
+  /// Slows down: velocity and acceleration are multiplied by `share` (0..1), their sigma kept.
+  void Slow(double share);
 
   double position() const { return state_[0]; }
   double velocity() const { return state_[1]; }

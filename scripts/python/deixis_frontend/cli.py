@@ -7,6 +7,7 @@ import importlib
 import os
 import sys
 from dataclasses import dataclass
+from types import ModuleType
 
 from deixis_frontend import __version__
 from deixis_frontend.bus import missing_module
@@ -73,17 +74,18 @@ def add_commands(parser: argparse.ArgumentParser, commands: dict[str, Command], 
     for name, command in commands.items():
         child = choices.add_parser(name, help=command.summary, description=command.summary + ".")
         if name == chosen:
-            add_url(child)
             module = importlib.import_module(command.module)
-            _add_arguments(module, child, argv[argv.index(name) + 1:])
-            child.set_defaults(run=module.run)
+            _complete(child, module, argv[argv.index(name) + 1:])
 
 
-def _add_arguments(module: object, parser: argparse.ArgumentParser, argv: list[str]) -> None:
+def _complete(parser: argparse.ArgumentParser, module: ModuleType, argv: list[str]) -> None:
+    """Adds what the module of the chosen command asks for: arguments, or a table of its own."""
     if hasattr(module, "SUBCOMMANDS"):
         add_commands(parser, module.SUBCOMMANDS, argv, "what")
-    if hasattr(module, "add_arguments"):
+    else:
+        add_url(parser)
         module.add_arguments(parser)
+        parser.set_defaults(run=module.run)
 
 
 def _parser(argv: list[str]) -> argparse.ArgumentParser:

@@ -49,7 +49,7 @@ def find() -> Layout:
     """The layout that this file stands in."""
     package = Path(__file__).resolve().parent
     root = package.parents[2]
-    if (root / "lcmtypes").is_dir() and (root / "scripts" / "deixis").exists():
+    if (root / "lcmtypes").is_dir() and (root / "CMakeLists.txt").exists():
         return _repository(root)
     return _installed(package.parents[3], package.parent)
 

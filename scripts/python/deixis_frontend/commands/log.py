@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import itertools
 import os
 import time
 from collections.abc import Iterator
@@ -71,16 +72,16 @@ class Tail:
         if self._file is None and not self._open():
             return
         yield from self._read()
-        if self._was_rotated():
+        for path in self._newer_files():
             yield from self._read()  # What came between the reading and the rotation.
-            self._open()
+            self._open(path)
             yield from self._read()
 
-    def _open(self) -> bool:
+    def _open(self, path: Path | None = None) -> bool:
         if self._file:
             self._file.close()
         try:
-            self._file = self._path.open("rb")
+            self._file = (path or self._path).open("rb")
         except FileNotFoundError:
             self._file = None
         return self._file is not None
@@ -91,12 +92,17 @@ class Tail:
         for line in lines:
             yield self._prefix + line.decode(errors="replace")
 
-    def _was_rotated(self) -> bool:
+    def _newer_files(self) -> list[Path]:
+        """The files that were begun after the open one, oldest first."""
         assert self._file is not None
-        try:
-            return os.fstat(self._file.fileno()).st_ino != self._path.stat().st_ino
-        except FileNotFoundError:
-            return False
+        ours = os.fstat(self._file.fileno()).st_ino
+        newer: list[Path] = []
+        for number in itertools.count():
+            path = self._path.with_name(f"{self._path.name}.{number}") if number else self._path
+            if not path.exists() or path.stat().st_ino == ours:
+                return newer[::-1]
+            newer.append(path)
+        raise AssertionError("files are numbered without end")
 
 
 def _print(lines: Iterator[str]) -> None:

@@ -20,7 +20,8 @@ def run(arguments: argparse.Namespace) -> int:
     """0 when all have got ready."""
     system, client = open_system(arguments)
     system.resolve(arguments.names)  # A wrong name must not start a supervisor.
-    client.ensure_supervisor(lcm_url.choose(arguments.lcm_url))
+    client.ensure_supervisor(lcm_url.choose(arguments.lcm_url),
+                             url_is_wanted=bool(arguments.lcm_url))
     answer = client.command("start", arguments.names, print_service)
     if not answer["ok"]:
         print(f"deixis: not all services are ready: `deixis log` shows what they wrote"

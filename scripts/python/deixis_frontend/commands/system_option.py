@@ -35,5 +35,6 @@ def open_system(arguments: argparse.Namespace) -> tuple[System, Client]:
 def print_service(facts: dict[str, Any]) -> None:
     """One line on a service that has got ready, failed or stopped."""
     pid = f"pid {facts['pid']}" if facts["pid"] else ""
-    print(f"{facts['name']:<22} {facts['state']:<10} {pid:<12} {facts['last_error']}".rstrip(),
+    words = facts["last_error"] or facts.get("text", "")
+    print(f"{facts['name']:<22} {facts['state']:<10} {pid:<12} {words}".rstrip(),
           flush=True)

@@ -56,23 +56,26 @@ class Client:
         """Where the supervisor itself writes."""
         return log_folder(self._system, self._layout) / "supervisor.log"
 
-    def ensure_supervisor(self, url: LcmUrl) -> None:
-        """Starts a supervisor on `url` unless there is one."""
-        if self.is_supervised():
-            if self._appears():
-                self._check_same(url)
-                return
-        require_multicast(url)
-        self._layout.use_types()
-        self._spawn(url)
+    def ensure_supervisor(self, url: LcmUrl, url_is_wanted: bool,
+                          while_pid: int | None = None) -> None:
+        """Starts a supervisor on `url` unless there is one.
+
+        One on another bus will do, unless somebody asked for just this one (url_is_wanted). With
+        while_pid it ends when that process has ended.
+        """
+        if not (self.is_supervised() and self._appears()):
+            require_multicast(url)
+            self._layout.use_types()
+            self._spawn(url, ["--while-pid", str(while_pid)] if while_pid else [])
+        self._check_same(url if url_is_wanted else None)
 
     def wait_until_gone(self, seconds: float = 10.0) -> bool:
         """True when the supervisor has ended within the time."""
         return _becomes_true(lambda: not self.is_supervised(), seconds)
 
-    def _check_same(self, url: LcmUrl) -> None:
+    def _check_same(self, url: LcmUrl | None) -> None:
         status = self.command("status", [])["status"]
-        if status["lcm_url"] != str(url):
+        if url and status["lcm_url"] != str(url):
             raise UserError(f"the system '{self._system.name}' runs on {status['lcm_url']} already,"
                             f" not on {url}: `deixis stop` first")
         if status["file"] != str(self._system.path.resolve()):
@@ -90,19 +93,20 @@ class Client:
                             f" of {self._folder.path / 'lock'}")
         return False
 
-    def _spawn(self, url: LcmUrl) -> None:
+    def _spawn(self, url: LcmUrl, options: list[str]) -> None:
         self.log_file.parent.mkdir(parents=True, exist_ok=True)
         with self.log_file.open("ab") as log:
             begin = log.tell()
             daemon = subprocess.Popen(
                 [sys.executable, "-m", "deixis_frontend.supervision.daemon",
-                 "--system", str(self._system.path.resolve()), "--lcm-url", str(url)],
+                 "--system", str(self._system.path.resolve()), "--lcm-url", str(url), *options],
                 stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=_environment(),
                 start_new_session=True)
         _becomes_true(lambda: self._answers() or daemon.poll() is not None, _APPEARS_WITHIN_S)
-        if daemon.poll() is not None:
+        if daemon.poll() is not None and not (self.is_supervised() and self._appears()):
             said = self.log_file.read_bytes()[begin:].decode(errors="replace").strip()
             raise UserError(said or f"the supervisor did not start: see {self.log_file}")
+        # It may be another one that answers, started in the same moment: as good as ours.
         if not self._answers():
             raise UserError(f"the supervisor does not answer: see {self.log_file}")
 
@@ -131,8 +135,9 @@ class Client:
 
 def _environment() -> dict[str, str]:
     package_folder = str(Path(__file__).resolve().parents[2])
+    path = [package_folder, *filter(None, [os.environ.get("PYTHONPATH")])]
     others = {key: value for key, value in os.environ.items() if key != TOKEN_VARIABLE}
-    return {**others, "PYTHONPATH": package_folder, "PYTHONUNBUFFERED": "1"}
+    return {**others, "PYTHONPATH": os.pathsep.join(path), "PYTHONUNBUFFERED": "1"}
 
 
 def _becomes_true(condition: Callable[[], bool], seconds: float) -> bool:

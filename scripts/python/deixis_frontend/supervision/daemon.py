@@ -30,13 +30,15 @@ def main(argv: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="deixis-supervisor")
     parser.add_argument("--system", type=Path, required=True)
     parser.add_argument("--lcm-url", required=True)
+    parser.add_argument("--while-pid", type=int, help="end when this process has ended")
     arguments = parser.parse_args(argv)
     try:
         system = load(arguments.system)
         folder = RunFolder(system.name)
         token = secrets.token_hex(8)
         guard.stop_all(*folder.lock(arguments.system, token))
-        asyncio.run(_run(system, layouts.find(), parse(arguments.lcm_url), folder, token))
+        asyncio.run(_run(system, layouts.find(), parse(arguments.lcm_url), folder, token,
+                         arguments.while_pid))
         folder.release()
     except UserError as error:
         print(error, file=sys.stderr)
@@ -45,7 +47,7 @@ def main(argv: list[str]) -> int:
 
 
 async def _run(system: System, layout: Layout, url: LcmUrl, folder: RunFolder,
-               token: str) -> None:
+               token: str, while_pid: int | None) -> None:
     supervisor = Supervisor(system, layout, url, token)
     end = asyncio.Event()
     loop = asyncio.get_running_loop()
@@ -53,6 +55,8 @@ async def _run(system: System, layout: Layout, url: LcmUrl, folder: RunFolder,
         loop.add_signal_handler(number, end.set)
     StatusListener(url, system.channel_prefix, layout, supervisor.hear).attach(loop)
     helpers = [asyncio.create_task(_keep_guard(token)), asyncio.create_task(_sample(supervisor))]
+    if while_pid:
+        helpers.append(asyncio.create_task(_end_with(while_pid, end)))
     server = ControlServer(supervisor, end.set)
     await server.serve(folder.socket)
     await end.wait()
@@ -71,6 +75,12 @@ async def _keep_guard(token: str) -> None:
             stdin=subprocess.PIPE, start_new_session=True)
         await process.wait()
         await asyncio.sleep(_GUARD_PAUSE_S)
+
+
+async def _end_with(pid: int, end: asyncio.Event) -> None:
+    while Path(f"/proc/{pid}").exists():
+        await asyncio.sleep(_SAMPLE_EVERY_S)
+    end.set()
 
 
 async def _sample(supervisor: Supervisor) -> None:

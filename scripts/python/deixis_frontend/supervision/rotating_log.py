@@ -23,7 +23,7 @@ class RotatingLog:
         self.lost_bytes = 0
 
     def write(self, data: bytes) -> None:
-        """Appends `data`; a line is not torn between two files unless it is longer than one."""
+        """Appends `data`; lines are not torn between files, unless longer than two."""
         try:
             self._write(data)
         except OSError as error:
@@ -41,14 +41,23 @@ class RotatingLog:
     def _write(self, data: bytes) -> None:
         if self._file is None:
             self._open()
-        if self._written + len(data) <= self._size_bytes:
-            self._append(data)
-            return
-        cut = 0 if self._at_line_start else data.find(b"\n") + 1
-        self._append(data[:cut])
-        if self._at_line_start or self._written > 2 * self._size_bytes:
-            self._rotate()
-        self._append(data[cut:])
+        while data:
+            piece = self._fitting(data)
+            if not piece and self._is_between_lines() and self._written:
+                self._rotate()
+                continue
+            piece = piece or data[: data.find(b"\n") + 1] or data
+            self._append(piece)
+            data = data[len(piece):]
+
+    def _fitting(self, data: bytes) -> bytes:
+        """As many whole lines of `data` as the file has room for."""
+        room = self._size_bytes - self._written
+        return data if len(data) <= room else data[: data.rfind(b"\n", 0, max(room, 0)) + 1]
+
+    def _is_between_lines(self) -> bool:
+        """True at the start of a line, and in one that will not end."""
+        return self._at_line_start or self._written > 2 * self._size_bytes
 
     def _append(self, data: bytes) -> None:
         assert self._file is not None

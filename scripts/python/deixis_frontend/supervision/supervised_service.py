@@ -124,11 +124,11 @@ class SupervisedService:
             "name": self.entry.name,
             "state": "silent" if self._is_silent(now) else self.state.value,
             "pid": process.pid if process else None,
-            "uptime_s": round(now - self._started_at, 1) if process else None,
+            "uptime_s": _rounded(now - self._started_at) if process else None,
             "restarts": self.restarts,
-            "cpu_percent": round(self._cpu.percent, 1) if process and self._cpu.percent else None,
-            "memory_mb": round(memory / 1e6, 1) if memory else None,
-            "status_age_s": round(now - self._heard_at, 1) if self._heard else None,
+            "cpu_percent": _rounded(self._cpu.percent) if process else None,
+            "memory_mb": _rounded(memory / 1e6 if memory else None),
+            "status_age_s": _rounded(now - self._heard_at) if self._heard else None,
             "last_error": self.last_error,
             "stranger": self.stranger,
             **self._heard,
@@ -248,6 +248,10 @@ class SupervisedService:
     def _note(self, text: str) -> None:
         stamp = time.strftime("%Y-%m-%dT%H:%M:%S")
         self._log.write(f"-- {stamp} {self.entry.name}: {text}\n".encode())
+
+
+def _rounded(value: float | None) -> float | None:
+    return None if value is None else round(value, 1)
 
 
 def _describe(exit_code: int) -> str:

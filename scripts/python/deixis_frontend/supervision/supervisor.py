@@ -106,7 +106,8 @@ class Supervisor:
         return before, [self._services[other] for other in entry.needs]
 
     def _launch(self, entry: ServiceEntry) -> Launch:
-        environment = {**os.environ, TOKEN_VARIABLE: self._token, "LCM_DEFAULT_URL": str(self._url)}
+        environment = {"DEIXIS_CONFIG_DIR": str(self._layout.config), **os.environ,
+                       TOKEN_VARIABLE: self._token, "LCM_DEFAULT_URL": str(self._url)}
         return Launch(lambda: self._command(entry), environment, self._layout.state)
 
     def _command(self, entry: ServiceEntry) -> list[str]:

@@ -1,0 +1,57 @@
+"""`deixis demo`: a clip played through all services; says what is pointed at."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from deixis_frontend import layout as layouts
+from deixis_frontend import lcm_url
+from deixis_frontend.demo import live, one_process
+from deixis_frontend.demo.clip import Clip, open_clip
+from deixis_frontend.demo.commentary import Commentary
+from deixis_frontend.demo.stage import Stage
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What to play, for how long, and whether to show it."""
+    parser.add_argument("--seconds", type=float, metavar="N", help="play N seconds of the clip")
+    parser.add_argument("--clip", type=Path, metavar="FILE",
+                        help="video, or folder with left.mp4 (default: the one that is shipped)")
+    show = parser.add_mutually_exclusive_group()
+    show.add_argument("--headless", action="store_true",
+                      help="save the pictures with what was seen in them (default)")
+    show.add_argument("--window", action="store_true", help="show them in a window too")
+    parser.add_argument("--output", type=Path, metavar="FOLDER",
+                        help="where pictures and logs go (default: output/demo)")
+    parser.add_argument("--no-build", action="store_true", help="take the programs as they are")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """0 when gestures were recognised."""
+    layout = layouts.find()
+    clip = open_clip(arguments.clip, layout)
+    layout.use_types()
+    from deixis import gesture_t
+
+    folder = (arguments.output or layout.state / "output" / "demo").resolve()
+    stage = Stage(layout, folder, arguments.window)
+    stage.clear()
+    commentary = Commentary(clip, gesture_t, arguments.seconds)
+    _play(clip, stage, commentary)
+    print(commentary.verdict())
+    if not commentary.count:
+        print(f"deixis: no gesture was recognised: see the logs in {folder}", file=sys.stderr)
+    return 0 if commentary.count else 1
+
+
+def _play(clip: Clip, stage: Stage, commentary: Commentary) -> None:
+    reason = lcm_url.why_multicast_fails()
+    print(f"playing {clip.video}; pictures go to {stage.pictures}", flush=True)
+    if not reason:
+        live.play(clip, stage, commentary)
+        return
+    print(f"{reason}: the services run in one process instead, which takes a moment.\n"
+          f"To see them live, {lcm_url.CURE_ROUTE}.", flush=True)
+    one_process.play(clip, stage, commentary)

@@ -1,0 +1,90 @@
+"""Plays a clip live through the services, each a process, on a bus of its own."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from typing import Any
+
+from deixis_frontend import lcm_url
+from deixis_frontend.bus import open_bus
+from deixis_frontend.commands.system_option import print_service
+from deixis_frontend.demo.clip import Clip
+from deixis_frontend.demo.commentary import Commentary
+from deixis_frontend.demo.stage import Stage
+from deixis_frontend.errors import UserError
+from deixis_frontend.supervision import system_file
+from deixis_frontend.supervision.control_client import Client
+
+_SILENCE_S = 10.0  # without a picture for so long, something is wrong
+_LAST_WORDS_S = 1.0  # gestures may come so long after the last picture
+_CHECK_EVERY_S = 0.5
+
+
+def play(clip: Clip, stage: Stage, commentary: Commentary) -> None:
+    """Starts the services, comments until the clip or the time is over, stops the services."""
+    url = lcm_url.with_free_port()
+    path = stage.folder / "system.yaml"
+    path.write_text(json.dumps(_system(clip, stage), indent=2), encoding="utf-8")
+    client = Client(system_file.load(path), stage.layout)
+    bus = open_bus(url)
+    subscriptions = [bus.subscribe("CAMERA", lambda _, data: commentary.see_picture(data)),
+                     bus.subscribe("GESTURES", lambda _, data: commentary.hear_gesture(data))]
+    for subscription in subscriptions:
+        subscription.set_queue_capacity(1000)
+    client.ensure_supervisor(url, url_is_wanted=True, while_pid=os.getpid())
+    try:
+        if not client.command("start", [], print_service)["ok"]:
+            raise UserError(f"not all services are ready: see the logs in {stage.folder / 'logs'}")
+        _watch(bus, client, commentary)
+    finally:
+        client.command("stop", [])
+
+
+def _watch(bus: Any, client: Client, commentary: Commentary) -> None:
+    next_check = time.monotonic()
+    silent_at = next_check + _SILENCE_S
+    while not commentary.is_over:
+        bus.handle_timeout(100)
+        now = time.monotonic()
+        if now >= silent_at:
+            _require_pictures(commentary)
+        if now >= next_check:
+            next_check = now + _CHECK_EVERY_S
+            if _camera_state(client) not in ("running", "degraded"):
+                break
+    _hear_last_words(bus)
+    _require_pictures(commentary)
+
+
+def _hear_last_words(bus: Any) -> None:
+    end = time.monotonic() + _LAST_WORDS_S
+    while (left := end - time.monotonic()) > 0:
+        bus.handle_timeout(int(1000 * left) + 1)
+
+
+def _require_pictures(commentary: Commentary) -> None:
+    if not commentary.played_s:
+        raise UserError("no picture has come: see logs/camera_driver.log beside the pictures")
+
+
+def _camera_state(client: Client) -> str:
+    services = client.command("status", [])["status"]["services"]
+    return next(s["state"] for s in services if s["name"] == "camera_driver")
+
+
+def _system(clip: Clip, stage: Stage) -> dict[str, Any]:
+    watchers: dict[str, dict[str, Any]] = {
+        "object_detector": {"set": clip.detector_settings()},
+        "hand_tracker": {},
+        "gesture_recogniser": {},
+        "viewer": {"set": stage.viewer_settings},
+    }
+    # The camera comes last, so that no picture is missed, and ends with the clip.
+    camera = {"set": clip.camera_settings(), "after": list(watchers), "restart": "never"}
+    return {
+        "name": f"demo-{os.getpid()}",
+        "log": {"folder": str(stage.folder / "logs")},
+        "services": {**watchers, "camera_driver": camera},
+    }

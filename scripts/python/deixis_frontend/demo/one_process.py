@@ -1,0 +1,69 @@
+"""Plays a clip without a bus: the camera driver writes a log, one process works through it."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+from deixis_frontend.bus import import_lcm
+from deixis_frontend.commands.run_offline import offline_command
+from deixis_frontend.demo.clip import Clip
+from deixis_frontend.demo.commentary import Commentary
+from deixis_frontend.demo.stage import Stage
+from deixis_frontend.errors import UserError
+from deixis_frontend.layout import Layout
+
+_SERVICES = "object_detector,hand_tracker,gesture_recogniser"
+
+
+def play(clip: Clip, stage: Stage, commentary: Commentary) -> None:
+    """Runs the same services as when live, then tells what came out, with the clip's times."""
+    recorded, results = stage.folder / "clip.lcmlog", stage.folder / "results.lcmlog"
+    for path in (recorded, results):
+        path.unlink(missing_ok=True)
+    camera = {**clip.camera_settings(), "pace": "as_fast_as_possible"}
+    _run(_on_log("deixis-camera-driver", f"{recorded}?mode=w", camera, stage.layout), stage)
+    settings = [f"object_detector.{key}={value}"
+                for key, value in clip.detector_settings().items()]
+    _run(offline_command(stage.layout, recorded, results, settings, _SERVICES), stage)
+    _tell(results, commentary)
+    _run(_on_log("deixis-viewer", f"{results}?mode=r&speed=0", stage.viewer_settings,
+                 stage.layout), stage)
+
+
+def _tell(results: Path, commentary: Commentary) -> None:
+    for channel, data in _events(results):
+        if channel == "CAMERA":
+            commentary.see_picture(data)
+        elif channel == "GESTURES":
+            commentary.hear_gesture(data)
+
+
+def _on_log(program: str, log: str, settings: dict[str, str], layout: Layout) -> list[str]:
+    """Command line of a service whose bus is a log file."""
+    command = [str(layout.program(program)), "--lcm-url", f"file://{log}"]
+    for key, value in settings.items():
+        command += ["--set", f"{key}={value}"]
+    return command
+
+
+def _run(command: list[str], stage: Stage) -> None:
+    environment = {"DEIXIS_CONFIG_DIR": str(stage.layout.config), **os.environ}
+    log = stage.folder / "logs" / f"{Path(command[0]).name}.log"
+    log.parent.mkdir(exist_ok=True)
+    with log.open("wb") as file:
+        code = subprocess.run(command, env=environment, stdout=file, stderr=file,
+                              check=False).returncode
+    if code:
+        lines = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()
+        raise UserError(f"{Path(command[0]).name} ended with exit code {code}:"
+                        f" {lines[-1] if lines else f'see {log}'}")
+
+
+def _events(log: Path) -> Iterator[tuple[str, bytes]]:
+    events = import_lcm().EventLog(str(log), "r")
+    for event in events:
+        yield event.channel, event.data
+    events.close()

@@ -1,0 +1,185 @@
+"""Runs the pointing chain live on a clip and measures what a robot would: loss, age, CPU, memory.
+
+The services run as processes of their own on a private port of this machine, the clip in a loop at the
+rate that is asked for. The figures come from their SERVICE_STATUS and from /proc.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+from deixis_frontend import layout, lcm_url
+from deixis_frontend.bus import open_bus
+from deixis_frontend.errors import UserError
+from deixis_frontend.supervision.process_facts import cpu_seconds, resident_bytes
+from deixis_frontend.supervision.status_listener import CHANNEL, as_facts
+
+CONSUMERS = ("object_detector", "hand_tracker", "gesture_recogniser")
+START_UP_LIMIT_S = 20.0
+# Time for the last picture's results and for the status that counts them (sent once per second).
+SETTLING_S = 2.5
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--clip", type=Path, metavar="FILE",
+                        help="video to play in a loop (default: the clip of the demo)")
+    parser.add_argument("--rate", type=float, default=30.0, help="pictures per second (30)")
+    parser.add_argument("--seconds", type=float, default=60.0, help="how long to measure (60)")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    where = layout.find()
+    clip = arguments.clip or where.clips / "spread_01" / "left.mp4"
+    if not clip.is_file():
+        raise UserError(f"no clip {clip}: name one with --clip")
+    with tempfile.TemporaryDirectory() as folder:
+        chain = _Chain(where, Path(folder), lcm_url.with_free_port())
+        try:
+            chain.start_consumers()
+            chain.start_camera(clip, arguments.rate)
+            services = chain.measure(arguments.seconds)
+        finally:
+            chain.stop()
+    result = {"summary": services, "lost": services["gesture_recogniser"]["lost"],
+              "pictures": services["camera_driver"]["pictures"], "rate_hz": arguments.rate,
+              "seconds": arguments.seconds, "clip": clip.name}
+    _print(result)
+    if arguments.json:
+        arguments.json.write_text(json.dumps(result, indent=2) + "\n")
+    return 0
+
+
+class _Chain:
+    """The four processes and what their status messages say."""
+
+    def __init__(self, where: layout.Layout, folder: Path, url: lcm_url.LcmUrl) -> None:
+        where.use_types()
+        from deixis import service_status_t
+
+        self._where = where
+        self._folder = folder
+        self._url = url
+        self._decode = service_status_t.decode
+        self._bus = open_bus(url)
+        self._bus.subscribe(CHANNEL, self._on_status)
+        self._processes: dict[str, subprocess.Popen[bytes]] = {}
+        self._facts: dict[str, dict[str, Any]] = {}
+
+    def start_consumers(self) -> None:
+        for service in CONSUMERS:
+            self._start(service)
+        self._wait_for(CONSUMERS)
+
+    def start_camera(self, clip: Path, rate_hz: float) -> None:
+        self._start("camera_driver", "source.kind=video", f"source.path={clip.resolve()}",
+                    "source.loop=true", f"source.rate_hz={rate_hz}", "pace=by_time")
+        self._wait_for(("camera_driver",))
+
+    def measure(self, seconds: float) -> dict[str, dict[str, Any]]:
+        before = {name: cpu_seconds(p.pid) for name, p in self._processes.items()}
+        start = time.monotonic()
+        self._listen(seconds)
+        elapsed = time.monotonic() - start
+        load = {name: (cpu_seconds(p.pid) or 0.0) - (before[name] or 0.0)
+                for name, p in self._processes.items()}
+        memory = {name: resident_bytes(p.pid) for name, p in self._processes.items()}
+        self._stop("camera_driver")
+        self._listen(SETTLING_S)
+        pictures = _messages(self._facts["camera_driver"], "CAMERA", "out")
+        return {name: _figures(self._facts[name], name, 100.0 * load[name] / elapsed, memory[name],
+                               pictures)
+                for name in self._processes}
+
+    def stop(self) -> None:
+        for name in list(self._processes):
+            self._stop(name)
+
+    def _start(self, service: str, *settings: str) -> None:
+        program = self._where.program("deixis-" + service.replace("_", "-"))
+        command = [str(program), "--lcm-url", str(self._url)]
+        for setting in settings:
+            command += ["--set", setting]
+        log = (self._folder / f"{service}.log").open("wb")
+        self._processes[service] = subprocess.Popen(command, stderr=log)
+
+    def _stop(self, service: str) -> None:
+        process = self._processes[service]
+        process.terminate()
+        try:
+            process.wait(5.0)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+    def _wait_for(self, services: tuple[str, ...]) -> None:
+        deadline = time.monotonic() + START_UP_LIMIT_S
+        while not all(service in self._facts for service in services):
+            self._listen(0.2)
+            for service in services:
+                self._require_alive(service)
+            if time.monotonic() > deadline:
+                missing = [service for service in services if service not in self._facts]
+                raise UserError(f"{', '.join(missing)} did not get ready in {START_UP_LIMIT_S:.0f} s")
+
+    def _require_alive(self, service: str) -> None:
+        if self._processes[service].poll() is None:
+            return
+        lines = (self._folder / f"{service}.log").read_text(errors="replace").splitlines()
+        raise UserError(f"{service} ended at once: {lines[-1] if lines else 'without a word'}")
+
+    def _listen(self, seconds: float) -> None:
+        deadline = time.monotonic() + seconds
+        while (left := deadline - time.monotonic()) > 0:
+            self._bus.handle_timeout(max(1, int(1000 * left)))
+
+    def _on_status(self, _channel: str, data: bytes) -> None:
+        message = self._decode(data)
+        self._facts[message.service] = as_facts(message)
+
+
+def _messages(facts: dict[str, Any], channel: str, direction: str) -> int:
+    return sum(c["messages"] for c in facts["channels"]
+               if c["name"] == channel and c["direction"] == direction)
+
+
+def _figures(facts: dict[str, Any], service: str, cpu_percent: float, memory: int | None,
+             pictures: int) -> dict[str, Any]:
+    """The keys of one service; `lost` counts pictures without a result of this service."""
+    output = {"camera_driver": "CAMERA", "object_detector": "OBJECTS",
+              "hand_tracker": "HAND_TRACKS", "gesture_recogniser": "GESTURE_STATE"}[service]
+    return {
+        "pictures": pictures,
+        "lost": pictures - _messages(facts, output, "out"),
+        "gaps": sum(c["gaps"] for c in facts["channels"]),
+        "skipped": sum(c["skipped"] for c in facts["channels"]),
+        "age_p50_ms": facts["age_ms"]["p50"],
+        "age_p99_ms": facts["age_ms"]["p99"],
+        "processing_p50_ms": facts["processing_ms"]["p50"],
+        "processing_p99_ms": facts["processing_ms"]["p99"],
+        "cpu_percent": cpu_percent,
+        "memory_mb": None if memory is None else memory / 1e6,
+        "receive_buffer_bytes": facts["receive_buffer_bytes"],
+    }
+
+
+def _print(result: dict[str, Any]) -> None:
+    print(f"{result['clip']} at {result['rate_hz']:g} Hz for {result['seconds']:g} s:"
+          f" {result['pictures']} pictures, {result['lost']} without a gesture state")
+    print(f"{'service':<20}{'lost':>6}{'skipped':>9}{'age p50':>9}{'p99 ms':>8}"
+          f"{'work p50':>10}{'p99 ms':>8}{'CPU %':>7}{'MB':>6}")
+    for name, row in result["summary"].items():
+        print(f"{name:<20}{row['lost']:>6}{row['skipped']:>9}{_number(row['age_p50_ms']):>9}"
+              f"{_number(row['age_p99_ms']):>8}{_number(row['processing_p50_ms']):>10}"
+              f"{_number(row['processing_p99_ms']):>8}{row['cpu_percent']:>7.1f}"
+              f"{_number(row['memory_mb']):>6}")
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.1f}"

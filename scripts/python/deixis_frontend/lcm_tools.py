@@ -1,0 +1,38 @@
+"""LCM's own logger and player."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from pathlib import Path
+
+from deixis_frontend.errors import UserError
+from deixis_frontend.lcm_url import LcmUrl
+
+EVENT_MAGIC = b"\xed\xa1\xda\x01"  # every event of a log file begins with it
+
+
+def find_tool(name: str) -> str:
+    """Path of lcm-logger or lcm-logplayer, of the system or of this Python."""
+    path = shutil.which(name) or shutil.which(name, path=str(Path(sys.executable).parent))
+    if path is None:
+        raise UserError(f"{name} not found: run scripts/setup, or install the package liblcm-bin")
+    return path
+
+
+def url_option(url: LcmUrl) -> str:
+    """The option for both tools. `-l URL` is broken in lcm-logger 1.3.1; this form works."""
+    return f"--lcm-url={url.with_receive_buffer()}"
+
+
+def require_log(path: Path) -> None:
+    """Raises UserError when `path` is no LCM log file."""
+    try:
+        with path.open("rb") as file:
+            begin = file.read(len(EVENT_MAGIC))
+    except OSError as error:
+        raise UserError(f"{path}: {error.strerror}: name a log that `deixis record` wrote") from None
+    if not begin:
+        raise UserError(f"{path} is empty: nothing was recorded")
+    if begin != EVENT_MAGIC:
+        raise UserError(f"{path} is no LCM log: name a file that `deixis record` wrote")

@@ -1,0 +1,94 @@
+#include "services/camera_driver/camera_driver_service.h"
+
+#include <chrono>
+#include <opencv2/core/utils/logger.hpp>
+
+#include "common/logging/log.h"
+#include "common/messages/camera_calibration.h"
+#include "common/messages/image.h"
+
+namespace deixis::camera_driver {
+namespace {
+
+template <typename Clock>
+Timestamp Now() {
+  const auto since_start = Clock::now().time_since_epoch();
+  return {std::chrono::duration_cast<std::chrono::microseconds>(since_start).count()};
+}
+
+// steady_clock is CLOCK_MONOTONIC on Linux.
+Clocks SystemClocks() { return {Now<std::chrono::system_clock>, Now<std::chrono::steady_clock>}; }
+
+// OpenCV would say a page on every way in which it failed to open something; ours is one line.
+std::unique_ptr<Source> OpenQuietly(const SourceConfig& config) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  return MakeSource(config, SystemClocks());
+}
+
+program::StepResult ResultOf(SourceState state) {
+  switch (state) {
+    case SourceState::kPicture:
+      return program::StepResult::kContinue;
+    case SourceState::kWaiting:
+      return program::StepResult::kIdle;
+    case SourceState::kFinished:
+      return program::StepResult::kFinished;
+  }
+  return program::StepResult::kFinished;
+}
+
+void Append(const std::string& part, std::string& text) {
+  if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+}
+
+}  // namespace
+
+void CameraDriverServiceConfig::Validate() const {
+  config::Faults faults;
+  faults.Require(!image_channel.empty(), "image_channel", "is empty; name a channel");
+  faults.Require(!calibration_channel.empty(), "calibration_channel", "is empty; name a channel");
+  driver.Check(faults);
+  faults.ThrowIfAny();
+}
+
+CameraDriverService::CameraDriverService(const CameraDriverServiceConfig& config, transport::Bus&,
+                                         transport::Bus& output)
+    : config_(config),
+      output_(output),
+      driver_(config.driver, OpenQuietly(config.driver.source)) {}
+
+program::StepResult CameraDriverService::Step() {
+  const DriverOutput step = driver_.Next(Now<std::chrono::system_clock>());
+  Publish(step);
+  LogNews();
+  return ResultOf(step.state);
+}
+
+void CameraDriverService::Publish(const DriverOutput& step) {
+  if (step.calibration) output_.Publish(config_.calibration_channel, *step.calibration);
+  if (step.picture) output_.Publish(config_.image_channel, *step.picture);
+}
+
+void CameraDriverService::LogNews() {
+  const std::string& remark = driver_.calibration_remark();
+  if (remark != logged_remark_) logging::Info("calibration", {{"remark", remark}});
+  logged_remark_ = remark;
+  const std::string trouble = driver_.status().trouble;
+  if (trouble.empty() == logged_trouble_.empty()) return;
+  if (trouble.empty()) logging::Info("source_recovered");
+  if (!trouble.empty()) logging::Warn("source_lost", {{"reason", trouble}});
+  logged_trouble_ = trouble;
+}
+
+transport::Health CameraDriverService::health() const {
+  const SourceStatus status = driver_.status();
+  transport::Health health;
+  health.is_degraded = !status.trouble.empty();
+  Append(status.trouble, health.text);
+  Append(driver_.calibration_remark(), health.text);
+  if (status.corrupt > 0) Append(std::to_string(status.corrupt) + " corrupt pictures", health.text);
+  if (status.skipped > 0) Append(std::to_string(status.skipped) + " skipped pictures", health.text);
+  return health;
+}
+
+}  // namespace deixis::camera_driver

@@ -1,0 +1,70 @@
+#include "services/camera_driver/core/camera_driver.h"
+
+#include <cmath>
+#include <utility>
+
+namespace deixis::camera_driver {
+namespace {
+
+constexpr double kCalibrationPeriod_s = 1.0;
+
+}  // namespace
+
+void CameraDriverConfig::Check(config::Faults& faults) const {
+  faults.Require(!camera.empty(), "camera", "is empty; name the camera");
+  faults.Require(start_time_utime >= -1, "start_time_utime",
+                 "must be -1 (chosen by the pace) or a time in microseconds");
+  source.Check(faults);
+  calibration.Check(faults);
+  image.Check(faults);
+}
+
+CameraDriver::CameraDriver(const CameraDriverConfig& config, std::unique_ptr<Source> source)
+    : config_(config),
+      source_(std::move(source)),
+      calibration_(config.calibration),
+      pacer_(config.pace, config.start_time_utime),
+      is_live_(source_->status().is_live) {}
+
+DriverOutput CameraDriver::Next(Timestamp now) {
+  DriverOutput output;
+  output.state = Fetch();
+  if (!waiting_) return output;
+  if (!IsDue(now)) {
+    output.state = SourceState::kWaiting;
+    return output;
+  }
+  const Timestamp time = is_live_ ? waiting_->time : pacer_.CaptureTime(waiting_->time);
+  output.state = SourceState::kPicture;
+  output.picture = Encode(*waiting_, time, config_.camera, config_.image);
+  output.calibration = CalibrationIfDue(*output.picture);
+  waiting_.reset();
+  return output;
+}
+
+SourceState CameraDriver::Fetch() {
+  if (waiting_) return SourceState::kPicture;
+  Grab grab = source_->Next();
+  waiting_ = std::move(grab.picture);
+  return grab.state;
+}
+
+bool CameraDriver::IsDue(Timestamp now) { return is_live_ || pacer_.IsDue(waiting_->time, now); }
+
+std::optional<geometry::CameraCalibration> CameraDriver::CalibrationIfDue(
+    const images::EncodedImage& picture) {
+  const bool has_same_size = lens_.calibration.width_px == picture.width_px &&
+                             lens_.calibration.height_px == picture.height_px;
+  // The absolute value, so that a clock that was set back does not silence the calibration.
+  const bool is_recent =
+      calibration_sent_ &&
+      std::abs(SecondsBetween(*calibration_sent_, picture.time)) < kCalibrationPeriod_s;
+  if (has_same_size && is_recent) return std::nullopt;
+  if (!has_same_size) lens_ = calibration_.For({picture.width_px, picture.height_px});
+  lens_.calibration.camera = config_.camera;
+  lens_.calibration.time = picture.time;
+  calibration_sent_ = picture.time;
+  return lens_.calibration;
+}
+
+}  // namespace deixis::camera_driver

@@ -1,0 +1,73 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/geometry/camera_calibration.h"
+#include "common/images/encoded_image.h"
+#include "services/camera_driver/core/calibration.h"
+#include "services/camera_driver/core/pacer.h"
+#include "services/camera_driver/core/picture_encoder.h"
+#include "services/camera_driver/core/sources/sources.h"
+
+namespace deixis::camera_driver {
+
+struct CameraDriverConfig {
+  std::string camera = "CAMERA";       ///< Name of the camera in all messages.
+  SourceConfig source;                 ///< Where pictures come from.
+  Pace pace = Pace::kByTime;           ///< How fast a recording is played.
+  std::int64_t start_time_utime = -1;  ///< Recordings: see Pacer.
+  CalibrationConfig calibration;       ///< What is known of the lens.
+  EncodingConfig image;                ///< How pictures are published.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("camera", camera);
+    v("source", source);
+    v("pace", pace);
+    v("start_time_utime", start_time_utime);
+    v("calibration", calibration);
+    v("image", image);
+  }
+  void Check(config::Faults& faults) const;
+};
+
+/// What one step of the driver has brought.
+struct DriverOutput {
+  SourceState state = SourceState::kWaiting;
+  std::optional<geometry::CameraCalibration> calibration;  ///< To be published before the picture.
+  std::optional<images::EncodedImage> picture;             ///< Set with kPicture only.
+};
+
+/// Turns a source of pictures into the stream that is published: each with its capture time, and
+/// the calibration before the first picture, once per second of picture time, and when the size
+/// changes.
+class CameraDriver {
+ public:
+  CameraDriver(const CameraDriverConfig& config, std::unique_ptr<Source> source);
+
+  /// The next picture that is due at `now` (wall clock); never waits. Throws ConfigError when the
+  /// calibration does not suit the pictures.
+  DriverOutput Next(Timestamp now);
+
+  SourceStatus status() const { return source_->status(); }
+  /// What has to be known about the calibration ("guessed ..."); empty before the first picture and
+  /// when it is as in its file.
+  const std::string& calibration_remark() const { return lens_.remark; }
+
+ private:
+  SourceState Fetch();
+  bool IsDue(Timestamp now);
+  std::optional<geometry::CameraCalibration> CalibrationIfDue(const images::EncodedImage& picture);
+
+  CameraDriverConfig config_;
+  std::unique_ptr<Source> source_;
+  Calibration calibration_;
+  Pacer pacer_;
+  bool is_live_;
+  std::optional<Picture> waiting_;  ///< Recorded picture whose time has not come.
+  CalibrationAnswer lens_;
+  std::optional<Timestamp> calibration_sent_;
+};
+
+}  // namespace deixis::camera_driver

@@ -1,0 +1,88 @@
+#include "services/camera_driver/core/sources/capture.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <opencv2/videoio.hpp>
+#include <utility>
+
+namespace deixis::camera_driver {
+namespace {
+
+constexpr std::int64_t kOldestBuffer_us = 2'000'000;  // An older stamp is of another clock.
+
+using SharedVideo = std::shared_ptr<cv::VideoCapture>;  // std::function wants copyable captures.
+
+bool IsNumber(const std::string& text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+void AskFor(cv::VideoCapture& video, const SourceConfig& config) {
+  if (!config.fourcc.empty()) {
+    const std::string& code = config.fourcc;
+    video.set(cv::CAP_PROP_FOURCC, cv::VideoWriter::fourcc(code[0], code[1], code[2], code[3]));
+  }
+  if (config.width_px > 0) video.set(cv::CAP_PROP_FRAME_WIDTH, config.width_px);
+  if (config.height_px > 0) video.set(cv::CAP_PROP_FRAME_HEIGHT, config.height_px);
+  if (config.rate_hz > 0.0) video.set(cv::CAP_PROP_FPS, config.rate_hz);
+}
+
+SharedVideo OpenDevice(const SourceConfig& config) {
+  auto video = std::make_shared<cv::VideoCapture>();
+  const std::string path = IsNumber(config.path) ? "/dev/video" + config.path : config.path;
+  if (!video->open(path, cv::CAP_V4L2)) return nullptr;
+  AskFor(*video, config);
+  return video;
+}
+
+SharedVideo OpenUrl(const SourceConfig& config) {
+  auto video = std::make_shared<cv::VideoCapture>();
+  return video->open(config.path) ? video : nullptr;
+}
+
+ReadLive ReaderOf(const SharedVideo& video, std::function<Timestamp()> capture_time) {
+  if (!video) return {};
+  return [video, capture_time = std::move(capture_time)]() -> std::optional<LivePicture> {
+    if (!video->grab()) return std::nullopt;
+    LivePicture picture;
+    picture.time = capture_time();
+    // A picture that was grabbed but cannot be decoded is handed on empty and counted there.
+    if (!video->retrieve(picture.bgr)) picture.bgr.release();
+    return picture;
+  };
+}
+
+}  // namespace
+
+Capture DeviceCapture(const SourceConfig& config, const Clocks& clocks) {
+  const auto open = [config, clocks] {
+    const SharedVideo video = OpenDevice(config);
+    return ReaderOf(
+        video, [video, clocks] { return CaptureTime(video->get(cv::CAP_PROP_POS_MSEC), clocks); });
+  };
+  return {
+      open, "camera device '" + config.path + "'",
+      "plug it in, check that you may read it (group video), or set source.path; to play a file "
+      "set source.kind to video"};
+}
+
+Capture UrlCapture(const SourceConfig& config, const Clocks& clocks) {
+  const auto open = [config, clocks] { return ReaderOf(OpenUrl(config), clocks.wall); };
+  return {open, "camera stream '" + config.path + "'",
+          "check that it is being sent and that OpenCV can read it, or set source.path"};
+}
+
+Timestamp CaptureTime(double buffer_ms, const Clocks& clocks) {
+  const Timestamp wall = clocks.wall();
+  if (!std::isfinite(buffer_ms) || buffer_ms <= 0.0) return wall;
+  const std::int64_t buffer_us = std::llround(1e3 * buffer_ms);
+  for (const Timestamp now : {clocks.monotonic(), wall}) {
+    const std::int64_t age_us = now.microseconds - buffer_us;
+    if (age_us >= 0 && age_us <= kOldestBuffer_us) return {wall.microseconds - age_us};
+  }
+  return wall;
+}
+
+}  // namespace deixis::camera_driver

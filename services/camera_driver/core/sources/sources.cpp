@@ -1,0 +1,47 @@
+#include "services/camera_driver/core/sources/sources.h"
+
+#include <stdexcept>
+
+#include "services/camera_driver/core/sources/capture.h"
+#include "services/camera_driver/core/sources/folder_source.h"
+#include "services/camera_driver/core/sources/live_source.h"
+#include "services/camera_driver/core/sources/looped_source.h"
+#include "services/camera_driver/core/sources/video_source.h"
+
+namespace deixis::camera_driver {
+namespace {
+
+std::unique_ptr<Source> OpenOnce(const SourceConfig& config, const Clocks& clocks) {
+  switch (config.kind) {
+    case SourceKind::kDevice:
+      return std::make_unique<LiveSource>(DeviceCapture(config, clocks), clocks.wall);
+    case SourceKind::kUrl:
+      return std::make_unique<LiveSource>(UrlCapture(config, clocks), clocks.wall);
+    case SourceKind::kVideo:
+      return std::make_unique<VideoSource>(config);
+    case SourceKind::kFolder:
+      return std::make_unique<FolderSource>(config);
+  }
+  throw std::logic_error("unknown source kind");
+}
+
+}  // namespace
+
+void SourceConfig::Check(config::Faults& faults) const {
+  faults.Require(!path.empty(), "source.path", "is empty; name a device, URL, file or folder");
+  faults.Require(width_px >= 0, "source.width_px", "must not be negative");
+  faults.Require(height_px >= 0, "source.height_px", "must not be negative");
+  faults.Require(rate_hz >= 0.0 && rate_hz <= 1000.0, "source.rate_hz", "must lie in 0..1000");
+  faults.Require(fourcc.empty() || fourcc.size() == 4, "source.fourcc",
+                 "must be empty or four letters such as MJPG");
+  faults.Require(!pattern.empty(), "source.pattern", "is empty; '*' takes every picture");
+  const bool is_recording = kind == SourceKind::kVideo || kind == SourceKind::kFolder;
+  faults.Require(!loop || is_recording, "source.loop", "is only for source.kind video and folder");
+}
+
+std::unique_ptr<Source> MakeSource(const SourceConfig& config, const Clocks& clocks) {
+  if (!config.loop) return OpenOnce(config, clocks);
+  return std::make_unique<LoopedSource>([config, clocks] { return OpenOnce(config, clocks); });
+}
+
+}  // namespace deixis::camera_driver

@@ -1,0 +1,126 @@
+#include "services/gesture_recogniser/core/destination.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "services/gesture_recogniser/core/log_probability.h"
+
+namespace deixis::gesture_recogniser {
+namespace {
+
+constexpr double kUpperArm_m = 0.28;           // Shoulder to elbow.
+constexpr double kForearm_m = 0.31;            // Elbow to the hand's centre.
+constexpr double kShoulderBelowChin_m = 0.06;  // Image plane, a person who faces the camera.
+constexpr double kShoulderAside_m = 0.13;
+
+/// Area of the ring that a normal density of spread `sigma` at distance `gap` around a box covers.
+double LogRing(const scene::Box& box_m, double gap_m) {
+  return std::log(2.0 * (box_m.width_px + box_m.height_px) + kTwoPi * gap_m);
+}
+
+double AngleBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
+}
+
+}  // namespace
+
+Eigen::Vector2d ForearmDirection(const Eigen::Vector2d& shoulder_m, const Eigen::Vector2d& hand_m,
+                                 double sag) {
+  const Eigen::Vector2d arm = hand_m - shoulder_m;
+  const double length = arm.norm();
+  if (length < 1e-6) return Eigen::Vector2d::Zero();
+  // Angle at the hand of the triangle shoulder, elbow, hand.
+  const double cosine = (kForearm_m * kForearm_m + length * length - kUpperArm_m * kUpperArm_m) /
+                        (2.0 * kForearm_m * length);
+  const double bend = sag * std::acos(std::clamp(cosine, -1.0, 1.0)) * std::abs(arm.x()) / length;
+  // The elbow hangs below the line, so that the forearm points above it; image y is down.
+  return Eigen::Rotation2Dd(arm.x() > 0.0 ? -bend : bend) * arm;
+}
+
+Eigen::Vector2d ShoulderFromFace(const scene::Box& face_m, scene::Side side) {
+  Eigen::Vector2d shoulder = scene::Centre(face_m);
+  shoulder.y() = face_m.y_px + face_m.height_px + kShoulderBelowChin_m;
+  if (side == scene::Side::kLeft) shoulder.x() += kShoulderAside_m;
+  if (side == scene::Side::kRight) shoulder.x() -= kShoulderAside_m;
+  return shoulder;
+}
+
+void DestinationConfig::Validate() const {
+  config::Faults faults;
+  faults.Require(elsewhere_weight > 0.0, "elsewhere_weight", "must be positive");
+  faults.Require(rest_weight > 0.0, "rest_weight", "must be positive");
+  faults.Require(face_weight > 0.0, "face_weight", "must be positive");
+  faults.Require(reach_m2 > 0.0, "reach_m2", "must be positive");
+  faults.Require(rest_spread_m > 0.0, "rest_spread_m", "must be positive");
+  faults.Require(face_spread_m > 0.0, "face_spread_m", "must be positive");
+  faults.Require(gap_extra_m >= 0.0, "gap_extra_m", "must not be negative");
+  faults.Require(stray_share > 0.0 && stray_share < 1.0, "stray_share", "must lie in (0, 1)");
+  faults.Require(rest_return_m >= 0.0, "rest_return_m", "must not be negative");
+  faults.Require(elbow_sag >= 0.0 && elbow_sag <= 1.0, "elbow_sag", "must lie in [0, 1]");
+  faults.Require(arrival_s > 0.0, "arrival_s", "must be positive");
+  faults.ThrowIfAny();
+}
+
+Destinations::Destinations(const DestinationConfig& config, const TargetStatistics& statistics)
+    : config_(config), statistics_(statistics) {}
+
+void Destinations::Judge(const Arrival& arrival, const Surroundings& surroundings,
+                         const std::optional<Eigen::Vector2d>& rest_m, scene::Side side,
+                         DestinationDensities& densities) const {
+  const double anywhere = -std::log(kTwoPi);
+  densities.target.clear();
+  const double way_error =
+      std::atan2(arrival.way_sigma_m, std::max(arrival.way_m.norm(), 0.2 * arrival.way_sigma_m));
+  const double way_sigma = std::hypot(statistics_.direction_spread_rad, way_error);
+  const double share =
+      1.0 / static_cast<double>(std::max<std::size_t>(surroundings.targets.size(), 1));
+  const bool has_posture = config_.use_posture && surroundings.face_m;
+  for (const Target& target : surroundings.targets) {
+    const Eigen::Vector2d direction = scene::Centre(target.box_m) - arrival.position_m;
+    double density = std::log(share) + LogGap(target.box_m, arrival) +
+                     LogDirection(direction, way_sigma, arrival.way_m);
+    if (has_posture) {
+      const Eigen::Vector2d arm = ForearmDirection(ShoulderFromFace(*surroundings.face_m, side),
+                                                   arrival.position_m, config_.elbow_sag);
+      density += LogDirection(direction, statistics_.posture_spread_rad, arm) - anywhere;
+    }
+    densities.target.push_back(density);
+  }
+  densities.elsewhere = std::log(config_.elsewhere_weight / config_.reach_m2) + anywhere;
+  densities.rest = rest_m ? LogRest(arrival, *rest_m) + anywhere : kImpossible;
+  densities.face =
+      surroundings.face_m ? LogFace(arrival, *surroundings.face_m) + anywhere : kImpossible;
+}
+
+double Destinations::LogGap(const scene::Box& box_m, const Arrival& arrival) const {
+  const double spread = std::hypot(statistics_.gap_spread_m, config_.gap_extra_m, arrival.sigma_m);
+  const double gap = scene::DistanceTo(box_m, arrival.position_m);
+  return LogNormal(gap - statistics_.gap_m, spread) - LogRing(box_m, statistics_.gap_m);
+}
+
+double Destinations::LogDirection(const Eigen::Vector2d& direction, double sigma_rad,
+                                  const Eigen::Vector2d& way) const {
+  const double angle = AngleBetween(direction, way);
+  return LogAdd(std::log(1.0 - config_.stray_share) + LogNormal(angle, sigma_rad),
+                std::log(config_.stray_share / kTwoPi));
+}
+
+double Destinations::LogRest(const Arrival& arrival, const Eigen::Vector2d& rest_m) const {
+  const double distance = (arrival.position_m - rest_m).norm();
+  const double spread = std::hypot(config_.rest_spread_m, arrival.sigma_m);
+  // What starts at rest does not return to it by going away from it.
+  const bool returns = arrival.nearest_rest_m >= distance + config_.rest_return_m;
+  return std::log(config_.rest_weight) + LogPlaneNormal(distance, spread) - (returns ? 0.0 : 6.0);
+}
+
+double Destinations::LogFace(const Arrival& arrival, const scene::Box& face_m) const {
+  const double spread = std::hypot(config_.face_spread_m, arrival.sigma_m);
+  const double distance = scene::DistanceTo(face_m, arrival.position_m);
+  const double area = face_m.width_px * face_m.height_px +
+                      2.5 * (face_m.width_px + face_m.height_px) * spread +
+                      0.5 * kTwoPi * spread * spread;
+  return std::log(config_.face_weight / area) - 0.5 * distance * distance / (spread * spread);
+}
+
+}  // namespace deixis::gesture_recogniser

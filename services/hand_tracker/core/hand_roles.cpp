@@ -1,0 +1,90 @@
+#include "services/hand_tracker/core/hand_roles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace deixis::hand_tracker {
+
+void HandRolesConfig::Validate() const {
+  config::Faults faults;
+  faults.Require(side_rate > 0.0, "side_rate", "must be positive");
+  faults.Require(side_limit > 0.0, "side_limit", "must be positive");
+  faults.Require(intent_time_s > 0.0, "intent_time_s", "must be positive");
+  faults.Require(least_speed > 0.0, "least_speed", "must be positive");
+  faults.Require(switch_ratio >= 1.0, "switch_ratio", "must be at least 1");
+  faults.ThrowIfAny();
+}
+
+void HandRoles::Update(const std::vector<HandTrack>& tracks, const std::vector<Person>& people,
+                       double reach, double elapsed_s) {
+  std::set<int> alive;
+  for (const HandTrack& track : tracks) {
+    if (!track.is_confirmed()) continue;
+    alive.insert(track.id());
+    FollowTrack(track, NearestPerson(people, track.centre(), reach), elapsed_s);
+  }
+  for (auto role = roles_.begin(); role != roles_.end();) {
+    role = alive.count(role->first) > 0 ? std::next(role) : roles_.erase(role);
+  }
+  SettleSides();
+  ChooseActing();
+}
+
+void HandRoles::FollowTrack(const HandTrack& track, const Person* person, double elapsed_s) {
+  const bool is_new = roles_.count(track.id()) == 0;
+  HandRole& role = roles_[track.id()];
+  const double speed = track.velocity().norm() / track.hand_length_px();
+  role.speed += (1.0 - std::exp(-elapsed_s / config_.intent_time_s)) * (speed - role.speed);
+  if (person == nullptr) return;
+  role.person = person->face_id;
+  // A person who faces the camera has the left hand at the image's right.
+  const double aside = (track.centre().x() - scene::Centre(person->face).x()) / HandLength(*person);
+  const double weight = config_.side_rate * std::clamp(aside, -1.5, 1.5);
+  role.left_log_odds = std::clamp(role.left_log_odds + weight * (is_new ? 0.3 : elapsed_s),
+                                  -config_.side_limit, config_.side_limit);
+}
+
+/// Of two hands of a person one is the left and one the right: the pairing that fits better wins.
+void HandRoles::SettleSides() {
+  for (auto& [id, role] : roles_) {
+    role.side_score = role.left_log_odds;
+    if (role.person < 0) continue;
+    const HandRole* strongest = nullptr;
+    for (const auto& [other_id, other] : roles_) {
+      if (other_id == id || other.person != role.person) continue;
+      if (strongest == nullptr ||
+          std::abs(other.left_log_odds) > std::abs(strongest->left_log_odds)) {
+        strongest = &other;
+      }
+    }
+    if (strongest != nullptr) role.side_score -= strongest->left_log_odds;
+  }
+}
+
+void HandRoles::ChooseActing() {
+  std::set<int> people;
+  for (const auto& [id, role] : roles_) people.insert(role.person);
+  for (const int person : people) {
+    HandRole* liveliest = nullptr;
+    HandRole* acting = nullptr;
+    for (auto& [id, role] : roles_) {
+      if (role.person != person) continue;
+      if (role.is_acting) acting = &role;
+      if (liveliest == nullptr || role.speed > liveliest->speed) liveliest = &role;
+    }
+    const double bar = acting != nullptr && acting != liveliest
+                           ? std::max(config_.least_speed, config_.switch_ratio * acting->speed)
+                           : config_.least_speed;
+    if (liveliest->speed <= bar) continue;
+    if (acting != nullptr) acting->is_acting = false;
+    liveliest->is_acting = true;
+  }
+}
+
+HandRole HandRoles::RoleOf(int id) const {
+  const auto role = roles_.find(id);
+  return role == roles_.end() ? HandRole{} : role->second;
+}
+
+}  // namespace deixis::hand_tracker

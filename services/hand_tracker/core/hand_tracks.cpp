@@ -1,0 +1,215 @@
+#include "services/hand_tracker/core/hand_tracks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "services/hand_tracker/core/hand_association.h"
+
+namespace deixis::hand_tracker {
+namespace {
+
+/// Where the track's prediction lies in a candidate's region: near enough to share it.
+const HandCandidate* SharedCandidate(const HandTrack& track,
+                                     const std::vector<HandCandidate>& candidates) {
+  for (const HandCandidate& candidate : candidates) {
+    if (scene::DistanceTo(candidate.box, track.centre()) < 0.3 * track.hand_length_px()) {
+      return &candidate;
+    }
+  }
+  return nullptr;
+}
+
+bool IsOnAnyFace(const std::vector<Person>& people, const Eigen::Vector2d& point) {
+  return std::any_of(people.begin(), people.end(),
+                     [&](const Person& person) { return IsOnFace(person, point); });
+}
+
+/// Below the face, between the shoulders: where a neckline shows skin that is no hand.
+bool IsOnChest(const Person& person, const Eigen::Vector2d& point) {
+  const Eigen::Vector2d offset = (point - scene::Centre(person.face)) / HandLength(person);
+  return std::abs(offset.x()) < 0.8 && offset.y() > 0.0 && offset.y() < 1.9;
+}
+
+/// How long a track has done without a region of its own.
+double LostTime(const HandTrack& track) { return std::max(track.unseen_s(), track.merged_s()); }
+
+}  // namespace
+
+void HandTracksConfig::Validate() const {
+  track.Validate();
+  config::Faults faults;
+  faults.Require(gate > 0.0, "gate", "must be positive");
+  faults.Require(gate_speed > 0.0, "gate_speed", "must be positive");
+  faults.Require(reach > 0.0, "reach", "must be positive");
+  faults.Require(least_area > 0.0, "least_area", "must be positive");
+  faults.Require(largest_area > least_area, "largest_area", "must exceed least_area");
+  faults.Require(separation >= 0.0, "separation", "must not be negative");
+  faults.ThrowIfAny();
+}
+
+void HandTracks::Update(const Observation& observation) {
+  for (HandTrack& track : tracks_) track.Predict(observation.elapsed_s);
+  const std::vector<int> candidate_of = Associate(observation);
+  Follow(observation, candidate_of);
+  Bear(observation, candidate_of);
+  Confirm(observation);
+  RemoveTwins();
+  tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(),
+                               [](const HandTrack& track) { return track.IsOver(); }),
+                tracks_.end());
+}
+
+double HandTracks::Cost(const HandTrack& track, const HandCandidate& candidate,
+                        double hand_length_px, double elapsed_s) const {
+  constexpr double kAreaCost = 2.0;
+  constexpr double kShoulderCost = 9.0;
+  constexpr double kStillCost = 20.0;
+  constexpr double kLongest_s = 0.4;
+  const double distance = (candidate.centre - track.centre()).norm() / track.hand_length_px();
+  const bool may_have_come_far =
+      candidate.moving_share > config_.track.moving_share && !candidate.is_at_face;
+  const double unseen_s =
+      may_have_come_far ? std::min(LostTime(track) + elapsed_s, kLongest_s) : elapsed_s;
+  if (distance > config_.gate + config_.gate_speed * unseen_s) return kForbidden;
+  if (candidate.area_px > 1.3 * config_.largest_area * hand_length_px * hand_length_px) {
+    return kForbidden;
+  }
+  const double squared = track.SquaredDistance(candidate.centre);
+  const double area_ratio =
+      std::log(std::max(1.0, candidate.area_px) / std::max(1.0, track.latest().area_px));
+  return squared + kAreaCost * area_ratio * area_ratio +
+         (candidate.is_at_shoulder ? kShoulderCost : 0.0) +
+         kStillCost * std::max(0.0, config_.track.moving_share - candidate.moving_share);
+}
+
+std::vector<int> HandTracks::Associate(const Observation& observation) const {
+  constexpr double kUnassignedCost = 400.0;
+  constexpr double kTentativeCost = 30.0;  // Hands that are known choose first.
+  Eigen::MatrixXd costs(static_cast<Eigen::Index>(tracks_.size()),
+                        static_cast<Eigen::Index>(observation.candidates.size()));
+  for (Eigen::Index row = 0; row < costs.rows(); ++row) {
+    const HandTrack& track = tracks_[static_cast<std::size_t>(row)];
+    for (Eigen::Index column = 0; column < costs.cols(); ++column) {
+      costs(row, column) =
+          std::min(Cost(track, observation.candidates[static_cast<std::size_t>(column)],
+                        observation.hand_lengths_px[static_cast<std::size_t>(column)],
+                        observation.elapsed_s),
+                   kForbidden) +
+          (track.is_confirmed() ? 0.0 : kTentativeCost);
+    }
+  }
+  return Assign(costs, kUnassignedCost);
+}
+
+void HandTracks::Follow(const Observation& observation, const std::vector<int>& candidate_of) {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (candidate_of[i] >= 0) {
+      const auto candidate = static_cast<std::size_t>(candidate_of[i]);
+      tracks_[i].Measure(observation.candidates[candidate],
+                         observation.hand_lengths_px[candidate], observation.elapsed_s);
+    } else {
+      FollowUnseen(observation, tracks_[i]);
+    }
+  }
+}
+
+void HandTracks::FollowUnseen(const Observation& observation, HandTrack& track) {
+  const HandCandidate* shared = SharedCandidate(track, observation.candidates);
+  if (shared != nullptr) {
+    track.Merge(shared->centre, 0.4 * track.hand_length_px(), observation.elapsed_s);
+  } else if (IsOnAnyFace(observation.people, track.centre())) {
+    track.Merge(track.centre(), 0.4 * track.hand_length_px(), observation.elapsed_s);
+  } else {
+    track.Miss(observation.elapsed_s);
+  }
+}
+
+bool HandTracks::IsPlausibleBirth(const Observation& observation, std::size_t candidate) const {
+  const HandCandidate& hand = observation.candidates[candidate];
+  const double unit = observation.hand_lengths_px[candidate];
+  const double area = hand.area_px / (unit * unit);
+  if (hand.is_at_shoulder || area < config_.least_area || area > config_.largest_area) return false;
+  for (const HandTrack& track : tracks_) {
+    if ((track.centre() - hand.centre).norm() < config_.separation * unit) return false;
+  }
+  if (observation.people.empty()) return true;
+  const Person* person = NearestPerson(observation.people, hand.centre, config_.reach);
+  return person != nullptr && !IsOnChest(*person, hand.centre) && !hand.is_at_face;
+}
+
+void HandTracks::Bear(const Observation& observation, const std::vector<int>& candidate_of) {
+  const std::size_t n_followed = candidate_of.size();
+  std::vector<bool> is_taken(observation.candidates.size(), false);
+  for (std::size_t i = 0; i < n_followed; ++i) {
+    if (candidate_of[i] >= 0) is_taken[static_cast<std::size_t>(candidate_of[i])] = true;
+  }
+  for (std::size_t i = 0; i < observation.candidates.size(); ++i) {
+    if (is_taken[i] || !IsPlausibleBirth(observation, i)) continue;
+    tracks_.emplace_back(next_id_++, config_.track, observation.candidates[i],
+                         observation.hand_lengths_px[i]);
+  }
+}
+
+/// A person has two hands: a newcomer takes the place of the weaker one only if it is clearly livelier.
+void HandTracks::Confirm(const Observation& observation) {
+  constexpr double kMargin = 0.25;
+  for (HandTrack& track : tracks_) {
+    const Person* person = NearestPerson(observation.people, track.centre(), config_.reach);
+    if (track.is_confirmed() || track.credit() < config_.track.confirm_credit) continue;
+    HandTrack* weaker = WeakerOfTwo(observation, person);
+    if (weaker == nullptr) {
+      track.Confirm();
+    } else if (track.liveliness() > weaker->liveliness() + kMargin) {
+      weaker->Dismiss();
+      track.Confirm();
+    }
+  }
+}
+
+/// Of the hands confirmed for `person` (nullptr = for nobody), the less lively one; nullptr while
+/// there are fewer than two.
+HandTrack* HandTracks::WeakerOfTwo(const Observation& observation, const Person* person) {
+  HandTrack* weaker = nullptr;
+  int n_hands = 0;
+  for (HandTrack& track : tracks_) {
+    if (!track.is_confirmed() ||
+        NearestPerson(observation.people, track.centre(), config_.reach) != person) {
+      continue;
+    }
+    ++n_hands;
+    if (weaker == nullptr || track.liveliness() < weaker->liveliness()) weaker = &track;
+  }
+  return n_hands < 2 ? nullptr : weaker;
+}
+
+/// Two tracks of one hand: the older one stays.
+void HandTracks::RemoveTwins() {
+  constexpr double kTwinDistance = 0.35;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    for (std::size_t j = tracks_.size() - 1; j > i; --j) {
+      const bool is_pair = tracks_[i].is_confirmed() && tracks_[j].is_confirmed();
+      const double distance = (tracks_[i].centre() - tracks_[j].centre()).norm();
+      if (!is_pair && distance < kTwinDistance * tracks_[i].hand_length_px()) {
+        tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(j));
+      }
+    }
+  }
+}
+
+const Person* NearestPerson(const std::vector<Person>& people, const Eigen::Vector2d& centre,
+                            double reach) {
+  const Person* nearest = nullptr;
+  double least = std::numeric_limits<double>::max();
+  for (const Person& person : people) {
+    if (DistanceFromFace(person, centre) > reach) continue;
+    const double distance = (centre - scene::Centre(person.face)).norm();
+    if (distance < least) {
+      least = distance;
+      nearest = &person;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace deixis::hand_tracker

@@ -1,0 +1,34 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/images/image.h"
+#include "common/scene/object.h"
+#include "services/object_detector/core/detectors/detectors.h"
+
+namespace deixis::object_detector {
+
+/// Runs all detectors on a sequence of pictures.
+class ObjectDetector {
+ public:
+  /// Throws ConfigError when a file that `config` names cannot be read.
+  explicit ObjectDetector(const DetectorsConfig& config);
+  ObjectDetector(const ObjectDetector&) = delete;  // Detectors number their objects through it.
+  ObjectDetector& operator=(const ObjectDetector&) = delete;
+
+  /// All objects that are known after `image`, by ascending id. A time before the last image's
+  /// begins anew; ids are not used again.
+  scene::Objects Detect(const images::Image& image);
+
+ private:
+  void ResetIfTimeWentBack(Timestamp time);
+
+  int next_id_ = kFirstTrackId;
+  std::vector<std::unique_ptr<Detector>> detectors_;
+  std::string frame_;
+  std::optional<Timestamp> last_time_;
+};
+
+}  // namespace deixis::object_detector

@@ -1,0 +1,95 @@
+#include "services/offline/offline_host.h"
+
+#include <utility>
+
+#include "common/transport/status_reporter.h"
+
+namespace deixis::offline {
+namespace {
+
+constexpr std::chrono::milliseconds kNoWait{0};
+
+transport::BusOptions PrivateBus(const std::string& channel_prefix) {
+  transport::BusOptions options;
+  options.url = "memq://";
+  options.channel_prefix = channel_prefix;
+  options.deliver_every_message = true;
+  options.queue_capacity = 1 << 20;  // nothing may be lost
+  return options;
+}
+
+std::map<std::string, std::int64_t> DropsOf(const transport::Bus& bus) {
+  std::map<std::string, std::int64_t> drops;
+  for (const auto& channel : bus.statistics()) {
+    for (const auto& [reason, count] : channel.drops) {
+      drops[channel.channel + ": " + reason] += count;
+    }
+  }
+  return drops;
+}
+
+std::map<std::string, std::int64_t> PublishedOn(const transport::Bus& bus,
+                                                const std::set<std::string>& channels) {
+  std::map<std::string, std::int64_t> published;
+  for (const auto& channel : bus.statistics()) {
+    const bool is_result =
+        channel.direction == messages::Direction::kOut && channels.count(channel.channel) != 0;
+    if (is_result) published[channel.channel] = channel.messages;
+  }
+  return published;
+}
+
+}  // namespace
+
+OfflineHost::OfflineHost(const std::string& channel_prefix)
+    : prefix_(channel_prefix), bus_(PrivateBus(channel_prefix)) {
+  bus_.SubscribeRaw(".*", [this](const transport::RawMessage& message) { Record(message); });
+}
+
+void OfflineHost::Add(std::unique_ptr<HostedService> service) {
+  services_.push_back(std::move(service));
+}
+
+std::set<std::string> OfflineHost::ReplacedChannels() const {
+  std::set<std::string> channels;
+  for (const auto& service : services_) {
+    for (const std::string& channel : service->OutputChannels()) channels.insert(prefix_ + channel);
+  }
+  return channels;
+}
+
+void OfflineHost::Record(const transport::RawMessage& message) {
+  const bool is_result = replaced_.count(message.channel) != 0;
+  if (content_ == OutputContent::kResultsOnly && !is_result) return;
+  output_->PublishRaw(message.channel, message.bytes, {event_time_us_});
+}
+
+Summary OfflineHost::Run(LogReader& input, transport::Bus& output, OutputContent content,
+                         const std::function<void(double)>& report_progress) {
+  replaced_ = ReplacedChannels();
+  output_ = &output;
+  content_ = content;
+  Summary summary;
+  const std::string status_channel = prefix_ + transport::kStatusChannel;
+  while (input.Next()) {
+    const transport::RawMessage& event = input.event();
+    ++summary.events_read;
+    report_progress(input.progress());
+    if (event.channel == status_channel) continue;
+    if (replaced_.count(event.channel) != 0) {
+      ++summary.events_replaced;
+      continue;
+    }
+    event_time_us_ = event.received_us;
+    bus_.PublishRaw(event.channel, event.bytes, {event_time_us_});
+    while (bus_.Handle(kNoWait) > 0) {
+    }
+  }
+  output.Flush();
+  summary.unreadable_bytes = input.unreadable_bytes();
+  summary.published = PublishedOn(bus_, replaced_);
+  summary.drops = DropsOf(bus_);
+  return summary;
+}
+
+}  // namespace deixis::offline

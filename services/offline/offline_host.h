@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/transport/bus.h"
+#include "services/offline/log_reader.h"
+
+namespace deixis::offline {
+
+/// A service that lives on the host's bus; destroying it ends its subscriptions' use.
+class HostedService {
+ public:
+  virtual ~HostedService() = default;
+  /// Channels that it publishes, without prefix.
+  virtual std::vector<std::string> OutputChannels() const = 0;
+};
+
+/// What happened in a run.
+struct Summary {
+  std::int64_t events_read = 0;
+  std::int64_t events_replaced = 0;   ///< Input on channels that a hosted service publishes itself.
+  std::int64_t unreadable_bytes = 0;  ///< At the end of the input.
+  std::map<std::string, std::int64_t> published;  ///< Messages by channel.
+  std::map<std::string, std::int64_t> drops;      ///< Refused messages by "channel: reason".
+};
+
+enum class OutputContent { kEverything, kResultsOnly };
+
+/// Feeds a log, event by event, to services on one private bus.
+class OfflineHost {
+ public:
+  explicit OfflineHost(const std::string& channel_prefix);
+
+  transport::Bus& bus() { return bus_; }
+  void Add(std::unique_ptr<HostedService> service);
+
+  /// Runs `input` through the services into `output`. `report_progress` gets the share that is
+  /// done. Throws BusError when the output cannot be written.
+  Summary Run(LogReader& input, transport::Bus& output, OutputContent content,
+              const std::function<void(double)>& report_progress);
+
+ private:
+  void Record(const transport::RawMessage& message);
+  std::set<std::string> ReplacedChannels() const;
+
+  std::string prefix_;
+  transport::Bus bus_;
+  std::vector<std::unique_ptr<HostedService>> services_;
+  std::set<std::string> replaced_;
+  transport::Bus* output_ = nullptr;
+  OutputContent content_ = OutputContent::kEverything;
+  std::int64_t event_time_us_ = 0;
+};
+
+}  // namespace deixis::offline

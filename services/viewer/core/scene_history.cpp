@@ -1,0 +1,105 @@
+#include "services/viewer/core/scene_history.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace deixis::viewer {
+namespace {
+
+constexpr double kSilentStream_s = 2.0;  // A service that is silent for longer is not waited for.
+constexpr std::size_t kMostResults = 60;
+
+template <typename Result>
+void Append(Result result, std::deque<Result>& results) {
+  if (!results.empty() && result.time < results.back().time) results.clear();
+  results.push_back(std::move(result));
+  if (results.size() > kMostResults) results.pop_front();
+}
+
+/// Whether nothing more is to be expected of this stream for a picture of `time`.
+template <typename Result>
+bool HasAnswered(const std::deque<Result>& results, Timestamp time) {
+  if (results.empty()) return true;
+  const double behind_s = SecondsBetween(results.back().time, time);
+  return behind_s <= 0.0 || behind_s > kSilentStream_s;
+}
+
+/// The newest result that is not later than `time` nor older than `max_age_s`.
+template <typename Result>
+std::optional<Result> NewestUntil(const std::deque<Result>& results, Timestamp time,
+                                  double max_age_s) {
+  for (auto result = results.rbegin(); result != results.rend(); ++result) {
+    if (time < result->time) continue;
+    if (SecondsBetween(result->time, time) > max_age_s) break;
+    return *result;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void SceneHistoryConfig::Check(config::Faults& faults) const {
+  faults.Require(max_delay_s >= 0.0, "history.max_delay_s", "must not be negative");
+  faults.Require(max_age_s >= 0.0, "history.max_age_s", "must not be negative");
+  faults.Require(decision_shown_s >= 0.0, "history.decision_shown_s", "must not be negative");
+  faults.Require(max_images >= 1 && max_images <= 1000, "history.max_images",
+                 "must lie in 1..1000");
+}
+
+void SceneHistory::Add(images::Image image) {
+  if (!images_.empty() && image.time < images_.back().time) Clear();
+  images_.push_back(std::move(image));
+  if (images_.size() > static_cast<std::size_t>(config_.max_images)) images_.pop_front();
+}
+
+void SceneHistory::Add(scene::Objects objects) { Append(std::move(objects), objects_); }
+void SceneHistory::Add(scene::Hands hands) { Append(std::move(hands), hands_); }
+void SceneHistory::Add(scene::GestureState state) { Append(std::move(state), states_); }
+void SceneHistory::Add(scene::Gesture gesture) { decision_ = std::move(gesture); }
+
+std::optional<Scene> SceneHistory::Take() {
+  for (auto image = images_.rbegin(); image != images_.rend(); ++image) {
+    if (taken_ && !(*taken_ < image->time)) break;
+    if (!IsComplete(*image)) continue;
+    taken_ = image->time;
+    return Compose(*image);
+  }
+  return std::nullopt;
+}
+
+std::optional<Scene> SceneHistory::At(Timestamp time) const {
+  for (auto image = images_.rbegin(); image != images_.rend(); ++image) {
+    if (!(time < image->time)) return Compose(*image);
+  }
+  return std::nullopt;
+}
+
+bool SceneHistory::IsComplete(const images::Image& image) const {
+  const bool has_waited = SecondsBetween(image.time, images_.back().time) >= config_.max_delay_s;
+  return has_waited || (HasAnswered(objects_, image.time) && HasAnswered(hands_, image.time) &&
+                        HasAnswered(states_, image.time));
+}
+
+Scene SceneHistory::Compose(const images::Image& image) const {
+  Scene scene;
+  scene.image = image;
+  scene.objects = NewestUntil(objects_, image.time, config_.max_age_s);
+  scene.hands = NewestUntil(hands_, image.time, config_.max_age_s);
+  scene.state = NewestUntil(states_, image.time, config_.max_age_s);
+  if (decision_) {
+    const double age_s = SecondsBetween(decision_->time, image.time);
+    if (age_s >= 0.0 && age_s <= config_.decision_shown_s) scene.decision = decision_;
+  }
+  return scene;
+}
+
+void SceneHistory::Clear() {
+  images_.clear();
+  objects_.clear();
+  hands_.clear();
+  states_.clear();
+  decision_.reset();
+  taken_.reset();
+}
+
+}  // namespace deixis::viewer

@@ -1,0 +1,74 @@
+#pragma once
+#include <deque>
+#include <optional>
+
+#include "common/config/config.h"
+#include "common/images/image.h"
+#include "common/scene/gesture.h"
+#include "common/scene/hand.h"
+#include "common/scene/object.h"
+
+namespace deixis::viewer {
+
+/// A picture with what is known of it.
+struct Scene {
+  images::Image image;
+  std::optional<scene::Objects> objects;
+  std::optional<scene::Hands> hands;
+  std::optional<scene::GestureState> state;
+  std::optional<scene::Gesture> decision;  ///< The last one, while it is still news.
+};
+
+struct SceneHistoryConfig {
+  double max_delay_s = 0.3;  ///< A picture waits this long for its results.
+  double max_age_s = 0.5;    ///< Older results are not drawn on a picture that has none itself.
+  double decision_shown_s = 2.5;  ///< How long a decision stays in the picture.
+  int max_images = 15;            ///< Pictures that are kept.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("max_delay_s", max_delay_s);
+    v("max_age_s", max_age_s);
+    v("decision_shown_s", decision_shown_s);
+    v("max_images", max_images);
+  }
+  void Check(config::Faults& faults) const;
+};
+
+/// Puts pictures and the results that came from them together again: a result belongs to the
+/// picture of the same time. Services that pass over pictures answer only some of them; then the
+/// newest result from before is taken. A picture or result from before the last picture begins
+/// anew.
+class SceneHistory {
+ public:
+  explicit SceneHistory(const SceneHistoryConfig& config) : config_(config) {}
+
+  void Add(images::Image image);
+  void Add(scene::Objects objects);
+  void Add(scene::Hands hands);
+  void Add(scene::GestureState state);
+  void Add(scene::Gesture gesture);
+
+  /// The newest picture not yet taken whose results are there, or that has waited long enough.
+  std::optional<Scene> Take();
+  /// The newest picture that is not later than `time`; nothing when none is kept.
+  std::optional<Scene> At(Timestamp time) const;
+
+ private:
+  template <typename Result>
+  using Results = std::deque<Result>;
+
+  bool IsComplete(const images::Image& image) const;
+  Scene Compose(const images::Image& image) const;
+  void Clear();
+
+  SceneHistoryConfig config_;
+  std::deque<images::Image> images_;  ///< Oldest first, like all of these.
+  Results<scene::Objects> objects_;
+  Results<scene::Hands> hands_;
+  Results<scene::GestureState> states_;
+  std::optional<scene::Gesture> decision_;
+  std::optional<Timestamp> taken_;
+};
+
+}  // namespace deixis::viewer

@@ -1,0 +1,53 @@
+#include "services/viewer/picture_files.h"
+
+#include <cctype>
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/config/config.h"
+
+namespace deixis::viewer {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLongestLabel = 40;
+
+// Labels come over the network: nothing of them may lead out of the folder.
+std::string FileNamePart(const std::string& label) {
+  std::string part;
+  for (const char c : label) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (part.size() < kLongestLabel) part += is_plain ? c : '-';
+  }
+  return part.empty() ? "none" : part;
+}
+
+}  // namespace
+
+PictureFiles::PictureFiles(const fs::path& folder) : folder_(folder) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (!fs::is_directory(folder_)) {
+    throw config::ConfigError("folder '" + folder_.string() + "' cannot be made: " +
+                              error.message() + "; set save_folder to one that can be written to");
+  }
+}
+
+void PictureFiles::WriteGesture(const scene::Gesture& gesture, const cv::Mat& bgr) const {
+  Write("gesture_" + std::to_string(gesture.event_id) + "_" + FileNamePart(gesture.object_label) +
+            "_" + std::to_string(gesture.time.microseconds) + ".png",
+        bgr);
+}
+
+void PictureFiles::WriteLatest(const cv::Mat& bgr) const { Write("latest.png", bgr); }
+
+void PictureFiles::Write(const std::string& name, const cv::Mat& bgr) const {
+  const fs::path unfinished = folder_ / ("." + name + ".part.png");
+  std::error_code error;
+  if (cv::imwrite(unfinished.string(), bgr)) fs::rename(unfinished, folder_ / name, error);
+  if (error || !fs::exists(folder_ / name)) {
+    throw config::ConfigError("picture '" + (folder_ / name).string() +
+                              "' cannot be written; free some space or set save_folder");
+  }
+}
+
+}  // namespace deixis::viewer

@@ -1,0 +1,84 @@
+#include "services/viewer/viewer_service.h"
+
+#include <cmath>
+
+#include "common/logging/log.h"
+#include "common/messages/gesture.h"
+#include "common/messages/gesture_state.h"
+#include "common/messages/hands.h"
+#include "common/messages/image.h"
+#include "common/messages/objects.h"
+#include "services/viewer/core/overlay.h"
+#include "services/viewer/window.h"
+
+namespace deixis::viewer {
+
+using transport::Delivery;
+
+void ViewerServiceConfig::Validate() const {
+  config::Faults faults;
+  const std::string unnamed = "is empty; name a channel";
+  faults.Require(!image_channel.empty(), "image_channel", unnamed);
+  faults.Require(!objects_channel.empty(), "objects_channel", unnamed);
+  faults.Require(!hands_channel.empty(), "hands_channel", unnamed);
+  faults.Require(!state_channel.empty(), "state_channel", unnamed);
+  faults.Require(!gestures_channel.empty(), "gestures_channel", unnamed);
+  faults.Require(latest_period_s >= 0.0, "latest_period_s", "must not be negative");
+  history.Check(faults);
+  faults.ThrowIfAny();
+}
+
+ViewerService::ViewerService(const ViewerServiceConfig& config, transport::Bus& input,
+                             transport::Bus&)
+    : config_(config), history_(config.history) {
+  if (config.window) OpenWindow();
+  if (!config.save_folder.empty()) files_.emplace(config.save_folder);
+  if (!config.window && config.save_folder.empty()) {
+    logging::Warn("nothing_to_show", {{"cure", "set save_folder, or window to true"}});
+  }
+  Collect<images::Image>(input, config.image_channel, Delivery::kLatest);
+  Collect<scene::Objects>(input, config.objects_channel, Delivery::kEvery);
+  Collect<scene::Hands>(input, config.hands_channel, Delivery::kEvery);
+  Collect<scene::GestureState>(input, config.state_channel, Delivery::kEvery);
+  input.Subscribe<scene::Gesture>(config.gestures_channel, Delivery::kEvery,
+                                  [this](const scene::Gesture& gesture) { OnGesture(gesture); });
+}
+
+template <typename Message>
+void ViewerService::Collect(transport::Bus& input, const std::string& channel, Delivery delivery) {
+  input.Subscribe<Message>(channel, delivery, [this](const Message& message) {
+    history_.Add(message);
+    ShowWhatIsReady();
+  });
+}
+
+void ViewerService::OnGesture(const scene::Gesture& gesture) {
+  history_.Add(gesture);
+  // The same event comes a second time when the gesture ends.
+  const bool is_new = gesture.end.microseconds == 0 || gesture.event_id != last_event_;
+  last_event_ = gesture.event_id;
+  if (!files_ || !is_new) return;
+  if (const auto scene = history_.At(gesture.time)) {
+    files_->WriteGesture(gesture, DrawOverlay(*scene));
+  }
+}
+
+void ViewerService::ShowWhatIsReady() {
+  const auto scene = history_.Take();
+  if (!scene) return;
+  const bool is_latest_due = IsLatestDue(scene->image.time);
+  if (!config_.window && !is_latest_due) return;
+  const cv::Mat picture = DrawOverlay(*scene);
+  if (config_.window) ShowInWindow(picture);
+  if (!is_latest_due) return;
+  files_->WriteLatest(picture);
+  latest_written_ = scene->image.time;
+}
+
+bool ViewerService::IsLatestDue(Timestamp time) const {
+  if (!files_ || config_.latest_period_s <= 0.0) return false;
+  if (!latest_written_) return true;
+  return std::abs(SecondsBetween(*latest_written_, time)) >= config_.latest_period_s;
+}
+
+}  // namespace deixis::viewer

@@ -1,0 +1,58 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/transport/bus.h"
+#include "services/viewer/core/scene_history.h"
+#include "services/viewer/picture_files.h"
+
+namespace deixis::viewer {
+
+struct ViewerServiceConfig {
+  std::string image_channel = "CAMERA";
+  std::string objects_channel = "OBJECTS";
+  std::string hands_channel = "HAND_TRACKS";
+  std::string state_channel = "GESTURE_STATE";
+  std::string gestures_channel = "GESTURES";
+  std::string save_folder;       ///< Pictures are written here; empty = none.
+  double latest_period_s = 1.0;  ///< How often latest.png is written; 0 = never.
+  bool window = false;           ///< Shows the pictures in a window.
+  SceneHistoryConfig history;    ///< How pictures and results are put together.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("image_channel", image_channel);
+    v("objects_channel", objects_channel);
+    v("hands_channel", hands_channel);
+    v("state_channel", state_channel);
+    v("gestures_channel", gestures_channel);
+    v("save_folder", save_folder);
+    v("latest_period_s", latest_period_s);
+    v("window", window);
+    v("history", history);
+  }
+  void Validate() const;
+};
+
+/// Draws on the camera's pictures what the other services make of them.
+class ViewerService {
+ public:
+  /// Throws ConfigError when there is no display for the window or no folder for the pictures.
+  ViewerService(const ViewerServiceConfig& config, transport::Bus& input, transport::Bus& output);
+
+ private:
+  template <typename Message>
+  void Collect(transport::Bus& input, const std::string& channel, transport::Delivery delivery);
+  void OnGesture(const scene::Gesture& gesture);
+  void ShowWhatIsReady();
+  bool IsLatestDue(Timestamp time) const;
+
+  ViewerServiceConfig config_;
+  SceneHistory history_;
+  std::optional<PictureFiles> files_;
+  std::optional<Timestamp> latest_written_;
+  std::int64_t last_event_ = 0;
+};
+
+}  // namespace deixis::viewer

@@ -1,0 +1,128 @@
+"""A system of fake services with everything it needs in one folder."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from deixis_frontend.supervision.guard import stop_all
+
+_HERE = Path(__file__).resolve().parent
+
+
+class Bench:
+    """Writes a system file, runs `deixis` on it, knows what should be left when it is over."""
+
+    def __init__(self, folder: Path, types: Path, url: str) -> None:
+        self.folder = folder
+        self.url = url
+        self.system_file = folder / "system.yaml"
+        self.logs = folder / "logs"
+        self._environment = {
+            **os.environ,
+            "DEIXIS_BUILD_DIR": str(folder),
+            "DEIXIS_RUN_DIR": str(folder / "run"),
+            "PYTHONPATH": os.pathsep.join([str(_HERE.parents[1] / "scripts/python"), str(types)]),
+            "LCM_DEFAULT_URL": url,
+        }
+        (folder / "python").symlink_to(types)
+        self._write_program()
+
+    def write(self, services: dict[str, dict[str, Any]], **top: Any) -> None:
+        """Writes the system file; each service is a fake one, its instance being its name."""
+        for name, service in services.items():
+            service.setdefault("service", "fake")
+            service.setdefault("program", "deixis-fake")
+            service.setdefault("instance", name)
+        system = {"name": "bench", "log": {"folder": str(self.logs)}, "services": services, **top}
+        self.system_file.write_text(json.dumps(system), encoding="utf-8")  # JSON is YAML.
+
+    def deixis(self, command: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+        """Runs a command of the front end to its end."""
+        return subprocess.run(self.command(command, *arguments), env=self._environment, text=True,
+                              capture_output=True, check=False, timeout=60)
+
+    def deixis_below(self, prefix: list[str],
+                     command: str) -> subprocess.CompletedProcess[str]:
+        """Runs a command of the front end by way of another program."""
+        return subprocess.run([*prefix, *self.command(command)], env=self._environment, text=True,
+                              capture_output=True, check=False, timeout=60)
+
+    @contextmanager
+    def stranger(self, instance: str) -> Iterator[None]:
+        """A fake service beside the system, which the supervisor has not started."""
+        process = subprocess.Popen([self.folder / "bin/deixis-fake", "--instance", instance,
+                                    "--lcm-url", self.url], env=self._environment)
+        try:
+            yield
+        finally:
+            process.kill()
+            process.wait()
+
+    def command(self, command: str, *arguments: str) -> list[str]:
+        """The command line of a command that deals with this system."""
+        return [sys.executable, "-m", "deixis_frontend", command, "--system",
+                str(self.system_file), *arguments]
+
+    def begin(self, command: str, *arguments: str) -> subprocess.Popen[str]:
+        """Runs a command of the front end beside the test."""
+        return subprocess.Popen(self.command(command, *arguments), env=self._environment,
+                                text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    def status(self) -> dict[str, Any]:
+        """What `status --json` says."""
+        return json.loads(self.deixis("status", "--json").stdout)
+
+    def service(self, name: str) -> dict[str, Any]:
+        """What `status --json` says of one service."""
+        return next(s for s in self.status()["services"] if s["name"] == name)
+
+    def log(self, name: str) -> str:
+        """What one service wrote."""
+        return (self.logs / f"{name}.log").read_text(encoding="utf-8")
+
+    def end(self) -> None:
+        """Leaves nothing running, whatever the test did."""
+        locks = list((self.folder / "run").glob("*/lock"))
+        for lock in locks:
+            self._end_supervisor(lock.read_text(encoding="utf-8").splitlines())
+
+    def _end_supervisor(self, facts: list[str]) -> None:
+        if facts and is_alive(int(facts[0])):
+            os.kill(int(facts[0]), signal.SIGTERM)
+            becomes_true(lambda: not is_alive(int(facts[0])))
+        stop_all(*facts[2:])
+
+    def _write_program(self) -> None:
+        program = self.folder / "bin" / "deixis-fake"
+        program.parent.mkdir()
+        program.write_text(f"#!/bin/sh\nexec {sys.executable} {_HERE / 'fake_service.py'} \"$@\"\n",
+                           encoding="ascii")
+        program.chmod(0o755)
+
+
+def becomes_true(condition: Callable[[], bool], seconds: float = 10.0) -> bool:
+    """True as soon as the condition holds; false when it does not within the time."""
+    deadline = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > deadline:
+            return False
+        time.sleep(0.02)
+    return True
+
+
+def is_alive(pid: int) -> bool:
+    """True when the process is there and has not ended."""
+    try:
+        text = Path(f"/proc/{pid}/stat").read_text(encoding="ascii", errors="replace")
+    except OSError:
+        return False
+    return text.rpartition(")")[2].split()[0] != "Z"

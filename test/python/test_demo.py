@@ -1,0 +1,99 @@
+"""The demonstration with stand-ins for the programs: live, in one process, and when it fails."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+PROGRAMS = ("camera-driver", "object-detector", "hand-tracker", "gesture-recogniser", "viewer",
+            "offline")
+LABELS = """start_frame,apex_frame,end_frame,hand,object_id,retract_end_frame,object_label
+3,4,6,right,5,7,lamp
+9,10,12,right,0,13,cup
+"""
+
+
+class Theatre:
+    """Stand-ins for the programs and a clip, in a folder of their own."""
+
+    def __init__(self, folder: Path, build: Path) -> None:
+        self.output = folder / "output"
+        self._folder = folder
+        self._environment = {**os.environ, "DEIXIS_BUILD_DIR": str(folder),
+                             "DEIXIS_RUN_DIR": str(folder / "run"),
+                             "PYTHONPATH": os.pathsep.join(sys.path)}
+        (folder / "python").symlink_to(build / "python")
+        (folder / "bin").mkdir()
+        for name in PROGRAMS:
+            self._write_program(f"deixis-{name}")
+        (folder / "clip").mkdir()
+        (folder / "clip" / "left.mp4").touch()
+        (folder / "clip" / "gestures.csv").write_text(LABELS, encoding="ascii")
+
+    def play(self, *arguments: str, prefix: tuple[str, ...] = (),
+             mode: str = "") -> subprocess.CompletedProcess[str]:
+        """Runs `deixis demo` to its end."""
+        command = [*prefix, sys.executable, "-m", "deixis_frontend", "demo", "--clip",
+                   str(self._folder / "clip"), "--output", str(self.output), *arguments]
+        return subprocess.run(command, env={**self._environment, "DEIXIS_FAKE": mode},
+                              capture_output=True, text=True, check=False, timeout=60)
+
+    def _write_program(self, name: str) -> None:
+        program = self._folder / "bin" / name
+        program.write_text(f"#!/bin/sh\nDEIXIS_FAKE_PROGRAM={name} exec {sys.executable}"
+                           f" {HERE / 'fake_demo.py'} \"$@\"\n", encoding="ascii")
+        program.chmod(0o755)
+
+
+@pytest.fixture
+def theatre(tmp_path_factory: pytest.TempPathFactory, build: Path, url: str) -> Theatre:
+    """`url` is asked for only to be sure that there is multicast."""
+    return Theatre(tmp_path_factory.mktemp("demo"), build)
+
+
+def test_live_it_says_what_is_pointed_at_and_how_much_was_right(theatre: Theatre) -> None:
+    result = theatre.play()
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert "    0.2 s  point: lamp (88%), right hand\n" in result.stdout
+    assert "    0.5 s  point: phone (88%), right hand\n" in result.stdout
+    assert "1 of 2 pointing gestures were named right (2 gestures recognised" in result.stdout
+    assert result.stdout.count("point:") == 2
+
+
+def test_live_it_stops_after_the_seconds_that_are_given(theatre: Theatre) -> None:
+    result = theatre.play("--seconds", "0.4")
+    assert "lamp" in result.stdout
+    assert "1 of 1 pointing gestures" in result.stdout
+
+
+def test_it_fails_when_nothing_is_recognised(theatre: Theatre) -> None:
+    result = theatre.play(mode="blind")
+    assert result.returncode == 1
+    assert "no gesture was recognised" in result.stderr
+
+
+def test_it_names_the_service_that_does_not_start(theatre: Theatre) -> None:
+    result = theatre.play(mode="broken")
+    assert result.returncode == 1
+    assert "gesture_recogniser.yaml:1: nonsense" in result.stdout
+    assert "not all services are ready" in result.stderr
+
+
+def test_without_multicast_it_runs_in_one_process_and_names_the_cure(
+        theatre: Theatre, without_multicast: list[str]) -> None:
+    result = theatre.play(prefix=tuple(without_multicast))
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert "ip route add 224.0.0.0/4 dev lo" in result.stdout
+    assert "    0.2 s  point: lamp (88%), right hand\n" in result.stdout
+    assert "1 of 2 pointing gestures were named right" in result.stdout
+
+
+def test_without_a_clip_it_says_which_one_is_missing(theatre: Theatre) -> None:
+    result = theatre.play("--clip", "/nowhere/clip.mp4")
+    assert result.returncode == 1
+    assert "/nowhere/clip.mp4: no such video" in result.stderr

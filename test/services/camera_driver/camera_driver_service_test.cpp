@@ -1,0 +1,89 @@
+#include "services/camera_driver/camera_driver_service.h"
+
+#include <gmock/gmock.h>
+
+#include <opencv2/videoio.hpp>
+
+#include "common/messages/camera_calibration.h"
+#include "common/messages/image.h"
+#include "test/support/temporary_folder.h"
+
+namespace deixis::camera_driver {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+transport::BusOptions Memory() {
+  transport::BusOptions options;
+  options.url = "memq://";
+  return options;
+}
+
+class CameraDriverServiceTest : public testing::Test {
+ protected:
+  CameraDriverServiceTest() {
+    config_.driver.source.kind = SourceKind::kVideo;
+    config_.driver.source.path = (folder_.path() / "clip.avi").string();
+    config_.driver.pace = Pace::kAsFastAsPossible;
+    cv::VideoWriter writer(config_.driver.source.path, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
+                           20.0, {64, 48});
+    for (int i = 0; i < 3; ++i) writer.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(50 * i)));
+  }
+  void RunToTheEnd(CameraDriverService& service) {
+    while (service.Step() != program::StepResult::kFinished) {
+    }
+    while (bus_.Handle(std::chrono::milliseconds(0)) > 0) {
+    }
+  }
+  test::TemporaryFolder folder_;
+  CameraDriverServiceConfig config_;
+  transport::Bus bus_{Memory()};
+};
+
+TEST_F(CameraDriverServiceTest, PublishesEveryPictureOfAFileThenFinishes) {
+  std::vector<std::int64_t> times;
+  bus_.Subscribe<images::Image>(
+      "CAMERA", transport::Delivery::kEvery,
+      [&times](const images::Image& image) { times.push_back(image.time.microseconds); });
+  CameraDriverService service(config_, bus_, bus_);
+  RunToTheEnd(service);
+  EXPECT_THAT(times, ElementsAre(0, 50'000, 100'000));
+}
+
+TEST_F(CameraDriverServiceTest, PublishesTheCalibrationFirst) {
+  std::vector<std::string> order;
+  bus_.Subscribe<images::Image>("CAMERA", transport::Delivery::kEvery,
+                                [&order](const images::Image&) { order.push_back("picture"); });
+  bus_.Subscribe<geometry::CameraCalibration>(
+      "CAMERA_CALIBRATION", transport::Delivery::kEvery,
+      [&order](const geometry::CameraCalibration&) { order.push_back("calibration"); });
+  CameraDriverService service(config_, bus_, bus_);
+  RunToTheEnd(service);
+  EXPECT_THAT(order, ElementsAre("calibration", "picture", "picture", "picture"));
+}
+
+TEST_F(CameraDriverServiceTest, SaysInItsHealthThatTheCalibrationIsAGuess) {
+  CameraDriverService service(config_, bus_, bus_);
+  service.Step();
+  EXPECT_FALSE(service.health().is_degraded);
+  EXPECT_THAT(service.health().text, HasSubstr("guessed"));
+}
+
+TEST_F(CameraDriverServiceTest, DoesNotStartWithoutItsSource) {
+  config_.driver.source.path += ".missing";
+  EXPECT_THROW(CameraDriverService(config_, bus_, bus_), config::ConfigError);
+}
+
+TEST_F(CameraDriverServiceTest, NamesEveryFaultOfItsConfiguration) {
+  config_.image_channel = "";
+  config_.driver.image.jpeg_quality = 500;
+  config_.driver.source.fourcc = "MJP";
+  EXPECT_THAT([this] { config_.Validate(); },
+              testing::ThrowsMessage<config::ConfigError>(
+                  testing::AllOf(HasSubstr("image_channel"), HasSubstr("image.jpeg_quality"),
+                                 HasSubstr("source.fourcc"))));
+}
+
+}  // namespace
+}  // namespace deixis::camera_driver

@@ -1,0 +1,72 @@
+#include "services/camera_driver/core/camera_driver.h"
+
+#include <gmock/gmock.h>
+
+#include "test/services/camera_driver/sources/scripted_source.h"
+
+namespace deixis::camera_driver {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<Picture> TwentyPictures() {
+  std::vector<Picture> pictures;
+  for (int i = 0; i < 20; ++i) pictures.push_back(PictureAt(i * 100'000));
+  return pictures;
+}
+
+CameraDriver Driver(Pace pace, std::vector<Picture> pictures, SourceStatus status = {}) {
+  CameraDriverConfig config;
+  config.pace = pace;
+  return CameraDriver(config, std::make_unique<ScriptedSource>(std::move(pictures), status));
+}
+
+TEST(CameraDriver, SaysTheCalibrationBeforeTheFirstPictureAndOncePerSecondOfPictureTime) {
+  CameraDriver driver = Driver(Pace::kAsFastAsPossible, TwentyPictures());
+  std::vector<std::int64_t> times;
+  for (DriverOutput output = driver.Next({0}); output.picture; output = driver.Next({0})) {
+    if (output.calibration) times.push_back(output.calibration->time.microseconds);
+  }
+  EXPECT_THAT(times, ElementsAre(0, 1'000'000));
+}
+
+TEST(CameraDriver, SaysTheCalibrationAnewWhenTheSizeChanges) {
+  CameraDriver driver =
+      Driver(Pace::kAsFastAsPossible, {PictureAt(0), PictureAt(100'000, {32, 24})});
+  EXPECT_EQ(driver.Next({0}).calibration->width_px, 64);
+  EXPECT_EQ(driver.Next({0}).calibration->width_px, 32);
+}
+
+TEST(CameraDriver, SaysThatTheCalibrationIsAGuess) {
+  CameraDriver driver = Driver(Pace::kAsFastAsPossible, TwentyPictures());
+  EXPECT_EQ(driver.calibration_remark(), "");
+  EXPECT_FALSE(driver.Next({0}).calibration->is_calibrated);
+  EXPECT_THAT(driver.calibration_remark(), HasSubstr("guessed"));
+}
+
+TEST(CameraDriver, GivesEveryRecordedPictureWhenItIsDue) {
+  CameraDriver driver = Driver(Pace::kByTime, TwentyPictures());
+  constexpr std::int64_t kStart_us = 5'000'000;
+  EXPECT_EQ(driver.Next({kStart_us}).picture->time.microseconds, kStart_us);
+  EXPECT_EQ(driver.Next({kStart_us + 50'000}).state, SourceState::kWaiting);
+  EXPECT_EQ(driver.Next({kStart_us + 100'000}).picture->time.microseconds, kStart_us + 100'000);
+  // Late by two pictures: none is left out.
+  EXPECT_EQ(driver.Next({kStart_us + 390'000}).picture->time.microseconds, kStart_us + 200'000);
+  EXPECT_EQ(driver.Next({kStart_us + 390'000}).picture->time.microseconds, kStart_us + 300'000);
+}
+
+TEST(CameraDriver, KeepsTheCaptureTimeOfLivePictures) {
+  SourceStatus live;
+  live.is_live = true;
+  CameraDriver driver = Driver(Pace::kByTime, {PictureAt(123'456)}, live);
+  EXPECT_EQ(driver.Next({999'999'999}).picture->time.microseconds, 123'456);
+}
+
+TEST(CameraDriver, FinishesWithItsSource) {
+  CameraDriver driver = Driver(Pace::kAsFastAsPossible, {});
+  EXPECT_EQ(driver.Next({0}).state, SourceState::kFinished);
+}
+
+}  // namespace
+}  // namespace deixis::camera_driver

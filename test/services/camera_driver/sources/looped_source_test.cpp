@@ -1,0 +1,38 @@
+#include "services/camera_driver/core/sources/looped_source.h"
+
+#include <gmock/gmock.h>
+
+#include "test/services/camera_driver/sources/scripted_source.h"
+
+namespace deixis::camera_driver {
+namespace {
+
+using testing::ElementsAre;
+
+std::unique_ptr<Source> TwoPictures() {
+  SourceStatus status;
+  status.corrupt = 1;
+  return std::make_unique<ScriptedSource>(std::vector<Picture>{PictureAt(0), PictureAt(100'000)},
+                                          status);
+}
+
+TEST(LoopedSource, LetsTimeGoOnAcrossRoundsWithoutAJump) {
+  LoopedSource source(TwoPictures);
+  std::vector<std::int64_t> times;
+  for (int i = 0; i < 5; ++i) times.push_back(source.Next().picture->time.microseconds);
+  EXPECT_THAT(times, ElementsAre(0, 100'000, 200'000, 300'000, 400'000));
+}
+
+TEST(LoopedSource, AddsUpCorruptPicturesOfAllRounds) {
+  LoopedSource source(TwoPictures);
+  for (int i = 0; i < 3; ++i) source.Next();
+  EXPECT_EQ(source.status().corrupt, 2);
+}
+
+TEST(LoopedSource, FinishesWhenARoundGivesNoPicture) {
+  LoopedSource source([] { return std::make_unique<ScriptedSource>(std::vector<Picture>{}); });
+  EXPECT_EQ(source.Next().state, SourceState::kFinished);
+}
+
+}  // namespace
+}  // namespace deixis::camera_driver

@@ -1,0 +1,74 @@
+#include "services/object_detector/object_detector_service.h"
+
+#include <gmock/gmock.h>
+
+#include "common/messages/image.h"
+#include "common/messages/objects.h"
+
+namespace deixis::object_detector {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+transport::BusOptions Memory() {
+  transport::BusOptions options;
+  options.url = "memq://";
+  return options;
+}
+
+class ObjectDetectorServiceTest : public testing::Test {
+ protected:
+  ObjectDetectorServiceTest() {
+    bus_.Subscribe<scene::Objects>(
+        "OBJECTS", transport::Delivery::kEvery,
+        [this](const scene::Objects& objects) { answers_.push_back(objects); });
+  }
+  void HandleAll() {
+    while (bus_.Handle(std::chrono::milliseconds(0)) > 0) {
+    }
+  }
+  static images::Image Wall(std::int64_t time_us) {
+    return {{time_us}, "CAMERA", cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(90))};
+  }
+  transport::Bus bus_{Memory()};
+  ObjectDetectorServiceConfig config_;
+  std::vector<scene::Objects> answers_;
+};
+
+TEST_F(ObjectDetectorServiceTest, AnswersAPictureWithWhatIsKnownAtItsTime) {
+  ObjectDetectorService service(config_, bus_, bus_);
+  bus_.Publish("CAMERA", Wall(77));
+  HandleAll();
+  ASSERT_EQ(answers_.size(), 1u);
+  EXPECT_EQ(answers_[0].time.microseconds, 77);
+  EXPECT_EQ(answers_[0].camera, "CAMERA");
+  EXPECT_TRUE(answers_[0].objects.empty());
+}
+
+TEST_F(ObjectDetectorServiceTest, GoesOnAfterAMessageThatIsNoPicture) {
+  ObjectDetectorService service(config_, bus_, bus_);
+  const std::vector<std::uint8_t> junk(40, 0xAB);
+  bus_.PublishRaw("CAMERA", {junk.data(), junk.size()}, {1});
+  HandleAll();
+  bus_.Publish("CAMERA", Wall(78));
+  HandleAll();
+  ASSERT_EQ(answers_.size(), 1u);
+  EXPECT_EQ(answers_[0].time.microseconds, 78);
+}
+
+TEST_F(ObjectDetectorServiceTest, DoesNotStartWithoutItsCascade) {
+  config_.detectors.cascades.trained[0].file = "missing.xml";
+  EXPECT_THROW(ObjectDetectorService(config_, bus_, bus_), config::ConfigError);
+}
+
+TEST_F(ObjectDetectorServiceTest, NamesEveryFaultOfItsConfiguration) {
+  config_.image_channel = "";
+  config_.detectors.cascades.tracking.memory_s = -1.0;
+  EXPECT_THAT([this] { config_.Validate(); },
+              testing::ThrowsMessage<config::ConfigError>(testing::AllOf(
+                  HasSubstr("image_channel"), HasSubstr("cascades.tracking.memory_s"))));
+}
+
+}  // namespace
+}  // namespace deixis::object_detector

@@ -1,0 +1,144 @@
+#include "services/offline/offline_host.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "common/messages/hands.h"
+#include "common/messages/objects.h"
+#include "test/support/temporary_folder.h"
+
+namespace deixis::offline {
+namespace {
+
+using scene::Hands;
+using scene::Objects;
+using testing::ElementsAre;
+using transport::Bus;
+using transport::Delivery;
+
+// Answers every message of `input` with one on `output` at the same time.
+class Echo final : public HostedService {
+ public:
+  Echo(const std::string& input, const std::string& output, Bus& bus) : output_(output) {
+    bus.Subscribe<Hands>(input, Delivery::kLatest,
+                         [&bus, output](const Hands& hands) { bus.Publish(output, hands); });
+  }
+  std::vector<std::string> OutputChannels() const override { return {output_}; }
+
+ private:
+  std::string output_;
+};
+
+class OfflineHostTest : public testing::Test {
+ protected:
+  std::string Path(const std::string& name) { return (folder_.path() / name).string(); }
+  static transport::BusOptions Log(const std::string& path) {
+    transport::BusOptions options;
+    options.url = "file://" + path + "?mode=w";
+    return options;
+  }
+  void WriteInput(const std::vector<std::pair<std::string, std::int64_t>>& events) {
+    Bus bus(Log(Path("in.lcmlog")));
+    for (const auto& [channel, time] : events) bus.Publish(channel, Hands{{time}, "C", "", {}});
+    bus.Flush();
+  }
+  Summary Run(OutputContent content = OutputContent::kEverything,
+              const std::string& output = "out.lcmlog", const std::string& prefix = "") {
+    LogReader input(Path("in.lcmlog"));
+    OfflineHost host(prefix);
+    host.Add(std::make_unique<Echo>("A", "B", host.bus()));
+    host.Add(std::make_unique<Echo>("B", "C", host.bus()));
+    Bus log(Log(Path(output)));
+    return host.Run(input, log, content, [](double) {});
+  }
+  std::vector<std::string> Events(const std::string& name = "out.lcmlog") {
+    std::vector<std::string> events;
+    LogReader reader(Path(name));
+    while (reader.Next()) {
+      events.push_back(reader.event().channel + "@" + std::to_string(reader.event().received_us));
+    }
+    return events;
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(OfflineHostTest, FinishesAllThatFollowsBeforeTheNextInput) {
+  WriteInput({{"A", 10}, {"A", 20}});
+  const Summary summary = Run();
+  EXPECT_THAT(Events(), ElementsAre("A@10", "B@10", "C@10", "A@20", "B@20", "C@20"));
+  EXPECT_EQ(summary.events_read, 2);
+  EXPECT_EQ(summary.published.at("C"), 2);
+}
+
+TEST_F(OfflineHostTest, LeavesTheInputOutOnRequest) {
+  WriteInput({{"A", 10}, {"OTHER", 20}});
+  Run(OutputContent::kResultsOnly);
+  EXPECT_THAT(Events(), ElementsAre("B@10", "C@10"));
+}
+
+TEST_F(OfflineHostTest, KeepsChannelsThatNobodyReads) {
+  WriteInput({{"OTHER", 20}});
+  Run();
+  EXPECT_THAT(Events(), ElementsAre("OTHER@20"));
+}
+
+TEST_F(OfflineHostTest, ReplacesOldResultsOfTheServicesItHosts) {
+  WriteInput({{"A", 10}, {"B", 11}});
+  const Summary summary = Run();
+  EXPECT_THAT(Events(), ElementsAre("A@10", "B@10", "C@10"));
+  EXPECT_EQ(summary.events_replaced, 1);
+}
+
+TEST_F(OfflineHostTest, LeavesStatusMessagesOut) {
+  WriteInput({{"SERVICE_STATUS", 10}});
+  Run();
+  EXPECT_TRUE(Events().empty());
+}
+
+TEST_F(OfflineHostTest, HandlesEveryOneOfManyMessages) {
+  std::vector<std::pair<std::string, std::int64_t>> events;
+  for (int i = 0; i < 3000; ++i) events.emplace_back("A", i);
+  WriteInput(events);
+  EXPECT_EQ(Run().published.at("C"), 3000);
+}
+
+TEST_F(OfflineHostTest, SameLogGivesTheSameBytes) {
+  WriteInput({{"A", 10}, {"A", 20}, {"OTHER", 30}});
+  Run(OutputContent::kEverything, "one.lcmlog");
+  Run(OutputContent::kEverything, "two.lcmlog");
+  const std::string bytes = test::FileContent(Path("one.lcmlog"));
+  EXPECT_FALSE(bytes.empty());
+  EXPECT_EQ(bytes, test::FileContent(Path("two.lcmlog")));
+}
+
+TEST_F(OfflineHostTest, TakesAPrefixedLog) {
+  WriteInput({{"ROBOT_A", 10}});
+  Run(OutputContent::kResultsOnly, "out.lcmlog", "ROBOT_");
+  EXPECT_THAT(Events(), ElementsAre("ROBOT_B@10", "ROBOT_C@10"));
+}
+
+TEST_F(OfflineHostTest, CountsWhatDoesNotDecode) {
+  {
+    Bus bus(Log(Path("in.lcmlog")));
+    bus.Publish("A", Objects{});
+  }
+  EXPECT_EQ(Run().drops.at("A: wrong_type"), 1);
+}
+
+TEST_F(OfflineHostTest, UsesALogThatIsCutOffUpToItsLastWholeEvent) {
+  WriteInput({{"A", 10}, {"A", 20}});
+  const auto size = std::filesystem::file_size(Path("in.lcmlog"));
+  std::filesystem::resize_file(Path("in.lcmlog"), size - 5);
+  const Summary summary = Run();
+  EXPECT_EQ(summary.events_read, 1);
+  EXPECT_EQ(summary.unreadable_bytes, static_cast<std::int64_t>(size) / 2 - 5);
+}
+
+TEST_F(OfflineHostTest, SaysThatALogIsMissing) {
+  EXPECT_THROW(LogReader("/no/such/log"), transport::BusError);
+  EXPECT_THROW(LogReader(folder_.path().string()), transport::BusError);
+}
+
+}  // namespace
+}  // namespace deixis::offline

@@ -1,0 +1,104 @@
+#include "services/viewer/viewer_service.h"
+
+#include <gmock/gmock.h>
+
+#include "common/messages/gesture.h"
+#include "common/messages/hands.h"
+#include "common/messages/image.h"
+#include "test/support/temporary_folder.h"
+
+namespace deixis::viewer {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+transport::BusOptions Memory() {
+  transport::BusOptions options;
+  options.url = "memq://";
+  return options;
+}
+
+class ViewerServiceTest : public testing::Test {
+ protected:
+  ViewerServiceTest() { config_.save_folder = folder_.path().string(); }
+
+  void HandleAll() {
+    while (bus_.Handle(std::chrono::milliseconds(0)) > 0) {
+    }
+  }
+  void SendImage(std::int64_t time_us) {
+    bus_.Publish("CAMERA", images::Image{{time_us}, "CAMERA", cv::Mat::zeros(48, 64, CV_8UC3)});
+    HandleAll();
+  }
+  void SendGesture(std::int64_t event_id, std::int64_t time_us, std::int64_t end_us) {
+    scene::Gesture gesture;
+    gesture.time = {time_us};
+    gesture.event_id = event_id;
+    gesture.name = "pointing";
+    gesture.end = {end_us};
+    gesture.outcome = scene::GestureOutcome::kObject;
+    gesture.object_id = 2;
+    gesture.object_label = "lamp";
+    bus_.Publish("GESTURES", gesture);
+    HandleAll();
+  }
+  bool Exists(const std::string& name) const {
+    return std::filesystem::exists(folder_.path() / name);
+  }
+  test::TemporaryFolder folder_;
+  ViewerServiceConfig config_;
+  transport::Bus bus_{Memory()};
+};
+
+TEST_F(ViewerServiceTest, WritesTheLatestPicture) {
+  ViewerService service(config_, bus_, bus_);
+  SendImage(1'000'000);
+  EXPECT_TRUE(Exists("latest.png"));
+}
+
+TEST_F(ViewerServiceTest, WritesTheLatestPictureNoMoreOftenThanAsked) {
+  ViewerService service(config_, bus_, bus_);
+  SendImage(1'000'000);
+  std::filesystem::remove(folder_.path() / "latest.png");
+  SendImage(1'900'000);
+  EXPECT_FALSE(Exists("latest.png"));
+  SendImage(2'000'000);
+  EXPECT_TRUE(Exists("latest.png"));
+}
+
+TEST_F(ViewerServiceTest, WritesOnePicturePerGesture) {
+  ViewerService service(config_, bus_, bus_);
+  SendImage(1'000'000);
+  SendGesture(1, 1'000'000, 0);
+  EXPECT_TRUE(Exists("gesture_1_lamp_1000000.png"));
+  SendImage(1'100'000);
+  SendGesture(1, 1'100'000, 1'090'000);  // The same gesture has ended.
+  EXPECT_FALSE(Exists("gesture_1_lamp_1100000.png"));
+}
+
+TEST_F(ViewerServiceTest, GoesOnWithoutThePictureOfAGesture) {
+  ViewerService service(config_, bus_, bus_);
+  SendGesture(1, 1'000'000, 0);
+  SendImage(2'000'000);
+  EXPECT_TRUE(Exists("latest.png"));
+}
+
+TEST_F(ViewerServiceTest, SaysTheCureWhenThereIsNoDisplay) {
+  unsetenv("DISPLAY");
+  unsetenv("WAYLAND_DISPLAY");
+  config_.window = true;
+  EXPECT_THAT([this] { ViewerService service(config_, bus_, bus_); },
+              ThrowsMessage<config::ConfigError>(HasSubstr("no display")));
+}
+
+TEST_F(ViewerServiceTest, NamesEveryFaultOfItsConfiguration) {
+  config_.hands_channel = "";
+  config_.history.max_images = 0;
+  EXPECT_THAT([this] { config_.Validate(); },
+              ThrowsMessage<config::ConfigError>(
+                  testing::AllOf(HasSubstr("hands_channel"), HasSubstr("history.max_images"))));
+}
+
+}  // namespace
+}  // namespace deixis::viewer
