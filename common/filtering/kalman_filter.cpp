@@ -5,7 +5,8 @@
 namespace deixis::filtering {
 namespace {
 
-/// State transition over `t` seconds; `decay_s` = 0 keeps the acceleration (Singer's model otherwise).
+/// State transition over `t` seconds; `decay_s` = 0 keeps the acceleration (Singer's model
+/// otherwise).
 Eigen::Matrix3d Transition(double t, double decay_s) {
   Eigen::Matrix3d transition = Eigen::Matrix3d::Identity();
   transition(0, 1) = t;

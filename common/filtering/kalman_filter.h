@@ -5,13 +5,13 @@ namespace deixis::filtering {
 
 /// How a point is expected to move along one axis. Units: those of the position, and seconds.
 struct ConstantAccelerationModel {
-  double jerk_density = 1.0;          ///< Spectral density of the acceleration's change, unit^2/s^5.
-  double acceleration_time_s = 0.0;   ///< Time in which an acceleration dies away; 0 = never.
+  double jerk_density = 1.0;         ///< Spectral density of the acceleration's change, unit^2/s^5.
+  double acceleration_time_s = 0.0;  ///< Time in which an acceleration dies away; 0 = never.
 };
 
-/// Kalman filter of position, velocity and acceleration along one axis. The acceleration is constant
-/// but for white jerk (Bar-Shalom, Li, Kirubarajan 2001, section 6.2.3), or decays with a time constant
-/// (Singer 1970), which keeps long predictions from running away.
+/// Kalman filter of position, velocity and acceleration along one axis. The acceleration is
+/// constant but for white jerk (Bar-Shalom, Li, Kirubarajan 2001, section 6.2.3), or decays with a
+/// time constant (Singer 1970), which keeps long predictions from running away.
 class ConstantAccelerationFilter {
  public:
   ConstantAccelerationFilter(const ConstantAccelerationModel& model, const Eigen::Vector3d& state,

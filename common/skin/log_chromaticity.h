@@ -3,8 +3,8 @@
 
 namespace deixis::skin {
 
-/// A colour in which light and shade only shift the third coordinate: ratios of the channels say what
-/// a surface is, the luminance how much light falls on it.
+/// A colour in which light and shade only shift the third coordinate: ratios of the channels say
+/// what a surface is, the luminance how much light falls on it.
 struct LogChromaticity {
   double red_green = 0.0;   ///< ln(R / G), R and G in 0..255.
   double green_blue = 0.0;  ///< ln(G / B).

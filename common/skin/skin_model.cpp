@@ -180,9 +180,8 @@ double SkinModel::Probability(const LogChromaticity& colour) const {
   double skin = GenericSkin().Density(colour);
   double other = GenericOther().Density(colour);
   if (knows_face()) {
-    const double own =
-        face_.Density(colour) *
-        LuminanceDensity(colour.luminance, face_luminance_, config_.luminance_spread);
+    const double own = face_.Density(colour) * LuminanceDensity(colour.luminance, face_luminance_,
+                                                                config_.luminance_spread);
     skin += config_.face_weight * (own - skin);
   }
   if (!scene_.is_empty()) {

@@ -9,11 +9,11 @@
 namespace deixis::skin {
 
 struct SkinModelConfig {
-  double skin_share = 0.3;         ///< Prior probability that a pixel in question is skin, 0..1.
-  double face_weight = 0.85;       ///< Share of the person's own colour once a face was seen, 0..1.
-  double scene_weight = 0.5;       ///< Share of the scene's own colours among what is not skin, 0..1.
-  double face_time_s = 2.0;        ///< Time constant with which the face's colour is followed.
-  double scene_time_s = 4.0;       ///< Time constant with which the scene's colours are followed.
+  double skin_share = 0.3;    ///< Prior probability that a pixel in question is skin, 0..1.
+  double face_weight = 0.85;  ///< Share of the person's own colour once a face was seen, 0..1.
+  double scene_weight = 0.5;  ///< Share of the scene's own colours among what is not skin, 0..1.
+  double face_time_s = 2.0;   ///< Time constant with which the face's colour is followed.
+  double scene_time_s = 4.0;  ///< Time constant with which the scene's colours are followed.
   double luminance_spread = 0.45;  ///< Sigma of ln(brightness) of skin about the face's.
 
   template <typename Visitor>
@@ -29,14 +29,14 @@ struct SkinModelConfig {
 };
 
 /// What skin looks like here and now: a histogram over chromaticity, learned from the face and set
-/// against the colours of the scene (Bayes), with a generic prior that works before any face was seen
-/// (Jones and Rehg 2002; Vezhnevets et al. 2003 compare such models).
+/// against the colours of the scene (Bayes), with a generic prior that works before any face was
+/// seen (Jones and Rehg 2002; Vezhnevets et al. 2003 compare such models).
 class SkinModel {
  public:
   explicit SkinModel(const SkinModelConfig& config = {});
 
-  /// Learns from the skin inside `face` (pixels of `bgr`, CV_8UC3), `elapsed_s` after the last time.
-  /// Returns whether enough of it looked like skin to be believed.
+  /// Learns from the skin inside `face` (pixels of `bgr`, CV_8UC3), `elapsed_s` after the last
+  /// time. Returns whether enough of it looked like skin to be believed.
   bool LearnFromFace(const cv::Mat& bgr, const scene::Box& face, double elapsed_s);
 
   /// Learns what is not skin from the pixels whose `weight` (CV_8UC1, size of `bgr`) is not 0.

@@ -3,6 +3,7 @@
 #include <lcm/lcm.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <deque>
 #include <map>
 #include <new>
@@ -184,10 +185,17 @@ struct Bus::Implementation {
     waiting.clear();
   }
 
+  // A signal that interrupts the wait is no lost connection.
+  int HandleOne(milliseconds timeout) {
+    errno = 0;
+    const int result = lcm_handle_timeout(lcm, static_cast<int>(timeout.count()));
+    return result < 0 && errno == EINTR ? 0 : result;
+  }
+
   int HandleArrived(milliseconds timeout) {
     arrived = 0;
-    int result = lcm_handle_timeout(lcm, static_cast<int>(timeout.count()));
-    for (int i = 1; result > 0 && i < kMostPerHandle; ++i) result = lcm_handle_timeout(lcm, 0);
+    int result = HandleOne(timeout);
+    for (int i = 1; result > 0 && i < kMostPerHandle; ++i) result = HandleOne(milliseconds{0});
     DeliverWaiting();
     if (result < 0 && url.provider == "file") is_exhausted = true;
     if (result < 0 && url.provider != "file")

@@ -53,9 +53,7 @@ void CameraDriverServiceConfig::Validate() const {
 
 CameraDriverService::CameraDriverService(const CameraDriverServiceConfig& config, transport::Bus&,
                                          transport::Bus& output)
-    : config_(config),
-      output_(output),
-      driver_(config.driver, OpenQuietly(config.driver.source)) {}
+    : config_(config), output_(output), driver_(config.driver, OpenQuietly(config.driver.source)) {}
 
 program::StepResult CameraDriverService::Step() {
   const DriverOutput step = driver_.Next(Now<std::chrono::system_clock>());

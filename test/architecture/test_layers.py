@@ -51,7 +51,8 @@ def test_a_core_that_knows_the_bus_is_found(tree: Path, header: str) -> None:
 
 
 def test_a_service_outside_its_core_may_know_the_bus(tree: Path) -> None:
-    write(tree, "services/hand_tracker/hand_tracker_service.h", '#include "common/transport/bus.h"\n')
+    write(tree, "services/hand_tracker/hand_tracker_service.h",
+          '#include "common/transport/bus.h"\n')
     assert check(tree) == []
 
 

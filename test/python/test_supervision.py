@@ -197,7 +197,8 @@ def test_a_second_system_of_the_same_name_is_refused(bench: Bench) -> None:
 
 def test_services_end_when_the_supervisor_is_killed(bench: Bench, tmp_path: Path) -> None:
     child = tmp_path / "child"
-    bench.write({"a": {"set": {"child": str(child)}}, "b": {"stop_within_s": 0.3, "set": {"ignore_stop": 1}}})
+    bench.write({"a": {"set": {"child": str(child)}},
+                 "b": {"stop_within_s": 0.3, "set": {"ignore_stop": 1}}})
     bench.deixis("start")
     pids = [*(service["pid"] for service in bench.status()["services"]),
             int(child.read_text(encoding="ascii"))]

@@ -59,8 +59,8 @@ def test_says_nothing_of_skipped_ones_when_there_are_none(
     assert last_line(capsys) == "1 passed, 0 failed"
 
 
-@pytest.mark.parametrize(("junit", "exit_code"), [(None, 0), (None, -11), ("<testsu", 0), (EMPTY, 0),
-                                                  (PASSES, 139)])
+@pytest.mark.parametrize(("junit", "exit_code"), [
+    (None, 0), (None, -11), ("<testsu", 0), (EMPTY, 0), (PASSES, 139)])
 def test_a_broken_runner_is_a_failure(tmp_path: Path, junit: str | None, exit_code: int) -> None:
     assert run([suite(tmp_path, junit, exit_code)], False).failed == 1
 

@@ -15,7 +15,8 @@ def open_bus(url: LcmUrl) -> Any:
     try:
         return lcm.LCM(str(url.with_receive_buffer()))
     except RuntimeError as error:
-        raise UserError(f"cannot open LCM on '{url}' ({error}): choose another URL with -l") from None
+        raise UserError(f"cannot open LCM on '{url}' ({error}):"
+                        " choose another URL with -l") from None
 
 
 def import_lcm() -> Any:

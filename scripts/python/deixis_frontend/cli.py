@@ -68,7 +68,7 @@ def add_url(parser: argparse.ArgumentParser) -> None:
 
 def add_commands(parser: argparse.ArgumentParser, commands: dict[str, Command], argv: list[str],
                  metavar: str) -> None:
-    """One sub-parser per command. Only the chosen one's module is loaded: the others cost nothing."""
+    """One sub-parser per command. Only the chosen one's module is loaded, which saves time."""
     choices = parser.add_subparsers(metavar=metavar, required=True)
     chosen = next((word for word in argv if word in commands), None)
     for name, command in commands.items():

@@ -31,7 +31,8 @@ def require_log(path: Path) -> None:
         with path.open("rb") as file:
             begin = file.read(len(EVENT_MAGIC))
     except OSError as error:
-        raise UserError(f"{path}: {error.strerror}: name a log that `deixis record` wrote") from None
+        raise UserError(f"{path}: {error.strerror}:"
+                        " name a log that `deixis record` wrote") from None
     if not begin:
         raise UserError(f"{path} is empty: nothing was recorded")
     if begin != EVENT_MAGIC:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/filtering/resampling.h"
 #include "services/gesture_recogniser/core/decision.h"
@@ -43,6 +44,12 @@ Condensation::Condensation(const CondensationConfig& config,
       model_weight_(models.size()),
       model_phase_(models.size()),
       end_weight_(models.size()) {
+  for (const GestureModel& model : models_) {
+    // A model without context is no gesture: it never ends.
+    end_s_.push_back(model.context == ContextNeed::kNone
+                         ? std::numeric_limits<float>::infinity()
+                         : static_cast<float>(config.end_phase * model.duration_s));
+  }
   samples_.Resize(Index(config.samples));
   selected_.Resize(Index(config.samples));
   Restart();
@@ -209,28 +216,21 @@ void Condensation::SumWeights() {
     const std::size_t model = Index(samples_.model[n]);
     const double weight = static_cast<double>(samples_.weight[n]);
     model_weight_[model] += weight;
-    model_phase_[model] += weight * Phase(n);
-    if (HasEnded(n)) end_weight_[model] += weight;
+    model_phase_[model] += weight * static_cast<double>(samples_.phase_s[n]);
+    end_weight_[model] += samples_.phase_s[n] > end_s_[model] ? weight : 0.0;
   }
 }
 
 // Hofemann 2004, Eq. 6.
 void Condensation::SumTargetWeights(int model) {
   end_target_weight_.assign(target_ids_.size(), 0.0);
+  if (target_ids_.empty() || config_.context == ContextUse::kNone) return;
+  const float end_s = end_s_[Index(model)];
   for (std::size_t n = 0; n < samples_.size(); ++n) {
-    if (samples_.model[n] != model || samples_.bound[n] < 0 || !HasEnded(n)) continue;
+    if (samples_.model[n] != model || samples_.bound[n] < 0) continue;
+    if (samples_.phase_s[n] <= end_s) continue;
     end_target_weight_[Index(samples_.bound[n])] += static_cast<double>(samples_.weight[n]);
   }
-}
-
-double Condensation::Phase(std::size_t sample) const {
-  const std::size_t model = Index(samples_.model[sample]);
-  return static_cast<double>(samples_.phase_s[sample]) / models_[model].duration_s;
-}
-
-bool Condensation::HasEnded(std::size_t sample) const {
-  const std::size_t model = Index(samples_.model[sample]);
-  return models_[model].context != ContextNeed::kNone && Phase(sample) > config_.end_phase;
 }
 
 void Condensation::Judge(const Motion& motion) {
@@ -252,7 +252,8 @@ void Condensation::Judge(const Motion& motion) {
 void Condensation::Describe(const Motion& motion, int ending) {
   const std::size_t likeliest = Index(std::max(0, Largest(model_weight_)));
   assessment_.model = models_[likeliest].name;
-  assessment_.phase = model_phase_[likeliest] / std::max(model_weight_[likeliest], 1e-12);
+  assessment_.phase = model_phase_[likeliest] / std::max(model_weight_[likeliest], 1e-12) /
+                      models_[likeliest].duration_s;
   assessment_.end_probability = end_weight_[Index(ending)];
   assessment_.target_probability = end_target_weight_;
   double bound = 0.0;

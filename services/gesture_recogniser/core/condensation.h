@@ -68,8 +68,6 @@ class Condensation final : public HandRecogniser {
   void Normalise();
   void SumWeights();
   void SumTargetWeights(int model);
-  double Phase(std::size_t sample) const;
-  bool HasEnded(std::size_t sample) const;
   void Judge(const Motion& motion);
   void Describe(const Motion& motion, int ending);
   void Initialise(std::size_t sample);
@@ -89,6 +87,7 @@ class Condensation final : public HandRecogniser {
   std::vector<float> turns_;
   std::vector<double> model_weight_;
   std::vector<double> model_phase_;
+  std::vector<float> end_s_;  // Phase past which a model counts as ended.
   std::vector<double> end_weight_;
   std::vector<double> end_target_weight_;  // Of the model that is judged.
   bool is_armed_ = true;

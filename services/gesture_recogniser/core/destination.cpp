@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kUpperArm_m = 0.28;           // Shoulder to elbow.
 constexpr double kForearm_m = 0.31;            // Elbow to the hand's centre.
-constexpr double kShoulderBelowChin_m = 0.06;  // Image plane, a person who faces the camera.
+constexpr double kShoulderBelowFace_m = 0.08;  // Image plane, a person who faces the camera.
 constexpr double kShoulderAside_m = 0.13;
 
 /// Area of the ring that a normal density of spread `sigma` at distance `gap` around a box covers.
@@ -40,7 +40,7 @@ Eigen::Vector2d ForearmDirection(const Eigen::Vector2d& shoulder_m, const Eigen:
 
 Eigen::Vector2d ShoulderFromFace(const scene::Box& face_m, scene::Side side) {
   Eigen::Vector2d shoulder = scene::Centre(face_m);
-  shoulder.y() = face_m.y_px + face_m.height_px + kShoulderBelowChin_m;
+  shoulder.y() = face_m.y_px + face_m.height_px + kShoulderBelowFace_m;
   if (side == scene::Side::kLeft) shoulder.x() += kShoulderAside_m;
   if (side == scene::Side::kRight) shoulder.x() -= kShoulderAside_m;
   return shoulder;

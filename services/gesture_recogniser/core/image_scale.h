@@ -22,7 +22,7 @@ inline auto EnumNames(ScaleSource) {
 
 struct ImageScaleConfig {
   ScaleSource source = ScaleSource::kFace;
-  double face_height_m = 0.19;      ///< What the height of a face's box measures on the person.
+  double face_height_m = 0.18;      ///< What the height of a face's box measures on the person.
   double assumed_distance_m = 2.0;  ///< Of people without a face, with a calibrated camera.
   double fixed_px_per_m = 277.0;    ///< Without either: 640 pixels, 60 degrees, 2 m.
   double smoothing_s = 2.0;         ///< Time constant with which the face's height is smoothed.

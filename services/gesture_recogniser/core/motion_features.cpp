@@ -26,14 +26,27 @@ void MotionConfig::Validate() const {
   faults.ThrowIfAny();
 }
 
-bool MotionHistory::Add(const TrackPoint& point) {
-  bool continues = false;
-  if (!points_.empty()) {
-    const double elapsed_s = SecondsBetween(points_.front().time, point.time);
-    continues = elapsed_s > 0.0 && elapsed_s <= config_.longest_gap_s;
-    if (!continues) points_.clear();
-    motion_.elapsed_s = continues ? elapsed_s : 0.0;
+void MotionHistory::ForgetPredictions() {
+  while (!points_.empty() && !points_.front().is_measured) points_.pop_front();
+}
+
+std::optional<TrackPoint> MotionHistory::LastSight() const {
+  for (const TrackPoint& point : points_) {
+    if (point.is_measured) return point;
   }
+  return std::nullopt;
+}
+
+bool MotionHistory::Add(const TrackPoint& point) {
+  const double elapsed_s = points_.empty() ? 0.0 : SecondsBetween(points_.front().time, point.time);
+  if (elapsed_s <= 0.0) points_.clear();
+  if (point.is_measured) ForgetPredictions();
+  if (!points_.empty() &&
+      SecondsBetween(points_.front().time, point.time) > config_.longest_gap_s) {
+    points_.clear();
+  }
+  const bool continues = !points_.empty();
+  motion_.elapsed_s = continues ? elapsed_s : 0.0;
   points_.push_front(point);
   while (SecondsBetween(points_.back().time, point.time) > config_.history_s + config_.step_s) {
     points_.pop_back();

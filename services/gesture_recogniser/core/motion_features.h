@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "common/config/config.h"
@@ -55,13 +56,18 @@ class MotionHistory {
   explicit MotionHistory(const MotionConfig& config) : config_(config) {}
 
   /// Returns false when the motion begins anew with this point: the first one, a long gap, or time
-  /// that does not go forwards.
+  /// that does not go forwards. What was only predicted is forgotten when the hand is seen again:
+  /// the straight way between two sights is a better guess.
   bool Add(const TrackPoint& point);
+
+  /// Where the hand was seen last; nothing while it never was.
+  std::optional<TrackPoint> LastSight() const;
 
   /// The motion, seen with `px_per_m` pixels to the metre. Valid until the next call.
   const Motion& Sample(double px_per_m);
 
  private:
+  void ForgetPredictions();
   void SamplePositions(double px_per_m);
   void Differentiate();
 

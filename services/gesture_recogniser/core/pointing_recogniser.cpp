@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace deixis::gesture_recogniser {
 namespace {
@@ -21,6 +22,14 @@ Timestamp Before(Timestamp now, double seconds) {
 bool CanBePointedAt(const scene::Object& object) {
   return object.kind != scene::ObjectKind::kFace && object.box.has_value();
 }
+
+bool IsAmong(const scene::Hands& hands, int id) {
+  return std::any_of(hands.hands.begin(), hands.hands.end(),
+                     [id](const scene::Hand& hand) { return hand.id == id; });
+}
+
+/// Whether two person ids may be one person's; -1 = not known.
+bool MayBeSamePerson(int person, int other) { return person < 0 || other < 0 || person == other; }
 
 scene::Box InMetres(const scene::Box& box, double px_per_m) {
   return {box.x_px / px_per_m, box.y_px / px_per_m, box.width_px / px_per_m,
@@ -46,6 +55,7 @@ void PointingRecogniserConfig::Validate() const {
   config::Faults faults;
   faults.Require(objects_memory_s > 0.0, "objects_memory_s", "must be positive");
   faults.Require(longest_gap_s > 0.0, "longest_gap_s", "must be positive");
+  faults.Require(rejoin_speed_m_per_s >= 0.0, "rejoin_speed_m_per_s", "must not be negative");
   faults.Require(segmental.hold.longest_s + 1.2 <= motion.history_s, "motion.history_s",
                  "must exceed segmental.hold.longest_s by 1.2 s");
   faults.ThrowIfAny();
@@ -108,22 +118,51 @@ void PointingRecogniser::ForgetLostHands(const scene::Hands& hands, Recognition&
   }
 }
 
-PointingRecogniser::TrackedHand& PointingRecogniser::Track(const scene::Hand& hand) {
-  const auto known = hands_.find(hand.id);
-  if (known != hands_.end()) return known->second;
-  return hands_
-      .emplace(hand.id, TrackedHand(config_.motion, MakeRecogniser(config_, models_, hand.id)))
-      .first->second;
+PointingRecogniser::TrackedHand& PointingRecogniser::Track(const scene::Hand& hand,
+                                                           const scene::Hands& hands,
+                                                           double px_per_m) {
+  if (hands_.count(hand.id) == 0) Rejoin(hand, hands, px_per_m);
+  auto known = hands_.find(hand.id);
+  if (known == hands_.end()) {
+    TrackedHand fresh(config_.motion, MakeRecogniser(config_, models_, hand.id));
+    known = hands_.emplace(hand.id, std::move(fresh)).first;
+  }
+  known->second.last_seen = hands.time;
+  known->second.person_id = hand.person_id;
+  return known->second;
+}
+
+/// Trackers lose fast hands and find them again under a new id: the nearest lost hand that could
+/// have come here goes on under the new one.
+void PointingRecogniser::Rejoin(const scene::Hand& hand, const scene::Hands& hands,
+                                double px_per_m) {
+  auto nearest = hands_.end();
+  double least_px = std::numeric_limits<double>::infinity();
+  for (auto track = hands_.begin(); track != hands_.end(); ++track) {
+    const auto sight = track->second.history.LastSight();
+    if (!sight || IsAmong(hands, track->first)) continue;
+    if (!MayBeSamePerson(track->second.person_id, hand.person_id)) continue;
+    const double gap_s = SecondsBetween(sight->time, hands.time);
+    const double distance_px = (sight->position_px - hand.centre_px).norm();
+    const double reach_px = config_.rejoin_speed_m_per_s * px_per_m * gap_s;
+    if (gap_s > config_.motion.longest_gap_s || distance_px > std::min(reach_px, least_px))
+      continue;
+    least_px = distance_px;
+    nearest = track;
+  }
+  if (nearest == hands_.end()) return;
+  auto node = hands_.extract(nearest);
+  node.key() = hand.id;
+  hands_.insert(std::move(node));
 }
 
 void PointingRecogniser::Judge(const scene::Hand& hand, const scene::Hands& hands,
                                Recognition& result) {
   if (config_.hands == HandChoice::kActing && !hand.is_acting) return;
-  TrackedHand& track = Track(hand);
-  track.last_seen = hands.time;
+  const double px_per_m = scale_.PixelsPerMetre(scale_.FaceOf(hand, hands.time));
+  TrackedHand& track = Track(hand, hands, px_per_m);
   track.history.Add(
       {hands.time, hand.centre_px, Sigma(hand), hand.state == scene::HandState::kMeasured});
-  const double px_per_m = scale_.PixelsPerMetre(scale_.FaceOf(hand, hands.time));
   Surround(hand, hands.time, px_per_m);
   const Assessment& assessment =
       track.recogniser->Observe(track.history.Sample(px_per_m), surroundings_, hand.side);

@@ -37,6 +37,8 @@ struct PointingRecogniserConfig {
   HandChoice hands = HandChoice::kAll;
   double objects_memory_s = 10.0;  ///< How long objects count that are no longer reported.
   double longest_gap_s = 1.0;      ///< A longer gap between messages starts everything anew.
+  double rejoin_speed_m_per_s =
+      5.0;  ///< A new track may go on with a lost one at up to this speed.
   MotionConfig motion;
   ImageScaleConfig scale;
   SegmentalConfig segmental;
@@ -48,6 +50,7 @@ struct PointingRecogniserConfig {
     v("hands", hands);
     v("objects_memory_s", objects_memory_s);
     v("longest_gap_s", longest_gap_s);
+    v("rejoin_speed_m_per_s", rejoin_speed_m_per_s);
     v("motion", motion);
     v("scale", scale);
     v("segmental", segmental);
@@ -82,13 +85,15 @@ class PointingRecogniser {
     MotionHistory history;
     std::unique_ptr<HandRecogniser> recogniser;
     Timestamp last_seen;
+    int person_id = -1;
     std::optional<scene::Gesture> open;  // Whose hold goes on.
     Eigen::Vector2d held_px = Eigen::Vector2d::Zero();
   };
 
   void ForgetIfTimeJumps(Timestamp now);
   void ForgetLostHands(const scene::Hands& hands, Recognition& result);
-  TrackedHand& Track(const scene::Hand& hand);
+  TrackedHand& Track(const scene::Hand& hand, const scene::Hands& hands, double px_per_m);
+  void Rejoin(const scene::Hand& hand, const scene::Hands& hands, double px_per_m);
   void Judge(const scene::Hand& hand, const scene::Hands& hands, Recognition& result);
   void Surround(const scene::Hand& hand, Timestamp now, double px_per_m);
   scene::GestureHypothesis Hypothesis(const scene::Hand& hand, const Assessment& assessment,

@@ -11,14 +11,14 @@
 namespace deixis::gesture_recogniser {
 
 struct SegmentalConfig {
-  double decide_probability = 0.8;   ///< Posterior at which an object is named.
-  double no_stroke_log_odds = 3.0;   ///< Prior log-odds of no stroke having just ended.
-  double ambiguous_after_s = 0.6;    ///< A hold of this length that is undecided is ambiguous.
-  double ambiguous_share = 0.2;      ///< Share that the second object needs for that.
-  double repeat_after_s = 0.8;       ///< Shortest time between two gestures of a hand.
-  double repeat_distance_m = 0.12;   ///< The hand must leave the last hold this far ...
-  double repeat_forget_s = 3.0;      ///< ... or stay away from it this long.
-  double measured_share = 0.5;       ///< Share of the hold in which the hand must be measured.
+  double decide_probability = 0.8;  ///< Posterior at which an object is named.
+  double no_stroke_log_odds = 3.0;  ///< Prior log-odds of no stroke having just ended.
+  double ambiguous_after_s = 0.6;   ///< A hold of this length that is undecided is ambiguous.
+  double ambiguous_share = 0.2;     ///< Share that the second object needs for that.
+  double repeat_after_s = 0.8;      ///< Shortest time between two gestures of a hand.
+  double repeat_distance_m = 0.12;  ///< The hand must leave the last hold this far ...
+  double repeat_forget_s = 3.0;     ///< ... or stay away from it this long.
+  double measured_share = 0.5;      ///< Share of the hold in which the hand must be measured.
   StrokeConfig stroke;
   HoldConfig hold;
   DestinationConfig destination;

@@ -27,7 +27,8 @@ int Distance(const std::uint8_t* bgr, const std::uint16_t* background) {
   const float g = bgr[1];
   const float r = bgr[2];
   const float ratio = (b + g + r + 1.0F) / (b0 + g0 + r0 + 1.0F);
-  const float colour = std::abs(b - ratio * b0) + std::abs(g - ratio * g0) + std::abs(r - ratio * r0);
+  const float colour =
+      std::abs(b - ratio * b0) + std::abs(g - ratio * g0) + std::abs(r - ratio * r0);
   const float brightness = std::abs(b + g + r - b0 - g0 - r0) * (1.0F / 3.0F);
   const bool may_be_shadow = ratio > 0.6F && ratio < 1.0F;
   return static_cast<int>(colour + (may_be_shadow ? 0.25F : 0.7F) * brightness);
@@ -59,10 +60,11 @@ void CountStillRow(const std::uint8_t* changed, int width, std::uint16_t elapsed
 
 void LearnRow(const LearningRule& rule, const std::uint8_t* bgr, const std::uint16_t* recent,
               const std::uint8_t* awake, const std::uint16_t* still_ms, const std::uint8_t* held,
-              int width, std::uint16_t* asleep_ms,
-              std::uint16_t* background, std::uint8_t* known, std::uint8_t* knowledge) {
+              int width, std::uint16_t* asleep_ms, std::uint16_t* background, std::uint8_t* known,
+              std::uint8_t* knowledge) {
   for (int x = 0; x < width; ++x) {
-    const int asleep = awake[x] != 0 ? 0 : std::min(asleep_ms[x] + rule.elapsed_ms, rule.longest_ms);
+    const int asleep =
+        awake[x] != 0 ? 0 : std::min(asleep_ms[x] + rule.elapsed_ms, rule.longest_ms);
     asleep_ms[x] = static_cast<std::uint16_t>(asleep);
     const bool is_same = Distance(bgr + 3 * x, background + 3 * x) <= rule.threshold;
     const bool is_known = known[x] != 0;

@@ -12,8 +12,8 @@
 namespace deixis::hand_tracker {
 namespace {
 
-constexpr int kFixed = 128;          // Fixed-point factor of the averages.
-constexpr int kLongestMs = 60000;    // Where the stop-watches stand still.
+constexpr int kFixed = 128;        // Fixed-point factor of the averages.
+constexpr int kLongestMs = 60000;  // Where the stop-watches stand still.
 
 int Milliseconds(double seconds) {
   return static_cast<int>(std::lround(1000.0 * std::clamp(seconds, 0.0, 30.0)));
@@ -25,8 +25,8 @@ int Share256(double elapsed_s, double time_s) {
                     256);
 }
 
-/// Median over a grid of known pixels of the brightness now over that of the background, or `otherwise`
-/// when too few are known.
+/// Median over a grid of known pixels of the brightness now over that of the background, or
+/// `otherwise` when too few are known.
 double LightGain(const cv::Mat& bgr, const cv::Mat& background, const cv::Mat& known,
                  double otherwise) {
   constexpr int kStep = 5;
@@ -88,7 +88,8 @@ void BackgroundModel::Start(const cv::Mat& bgr) {
   bgr.convertTo(recent_, CV_16U, kFixed);
   recent_.copyTo(background_);
   known_ = cv::Mat::zeros(bgr.size(), CV_8UC1);
-  still_ms_ = cv::Mat::zeros(bgr.size(), CV_16UC1);
+  // Half awake: who rests at the start shall have time to sway before becoming background.
+  still_ms_ = cv::Mat(bgr.size(), CV_16UC1, cv::Scalar(Milliseconds(0.5 * config_.still_time_s)));
   asleep_ms_ = cv::Mat::zeros(bgr.size(), CV_16UC1);
   changed_ = cv::Mat::zeros(bgr.size(), CV_8UC1);
   awake_ = cv::Mat::zeros(bgr.size(), CV_8UC1);

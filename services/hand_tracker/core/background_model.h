@@ -6,14 +6,16 @@
 namespace deixis::hand_tracker {
 
 struct BackgroundModelConfig {
-  double recent_time_s = 0.6;        ///< Time constant of the running average that shows motion.
-  double still_time_s = 1.5;         ///< A pixel this long without motion near it becomes background.
-  double near_time_s = 3.0;          ///< The same though something moves nearby, if the pixel itself does not.
-  double replace_time_s = 4.0;       ///< The same where another background was known.
-  double follow_time_s = 8.0;        ///< Time constant with which a known background follows slow light.
-  double change_threshold = 7.0;     ///< Grey levels that tell motion from noise.
-  double foreground_threshold = 14.0;///< Distance in grey levels that tells foreground from background.
-  double moving_share = 0.5;         ///< Share of changed pixels from which the camera itself moves.
+  double recent_time_s = 0.6;  ///< Time constant of the running average that shows motion.
+  double still_time_s = 1.5;   ///< A pixel this long without motion near it becomes background.
+  double near_time_s =
+      3.0;  ///< The same though something moves nearby, if the pixel itself does not.
+  double replace_time_s = 4.0;  ///< The same where another background was known.
+  double follow_time_s = 8.0;   ///< Time constant with which a known background follows slow light.
+  double change_threshold = 7.0;  ///< Grey levels that tell motion from noise.
+  double foreground_threshold =
+      14.0;                   ///< Distance in grey levels that tells foreground from background.
+  double moving_share = 0.5;  ///< Share of changed pixels from which the camera itself moves.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -29,9 +31,9 @@ struct BackgroundModelConfig {
   void Validate() const;
 };
 
-/// What each pixel of a still camera shows when nobody stands before it, learned while nothing moves
-/// near the pixel. People sway all the time, furniture never does: that is what tells a hand at rest
-/// from a wooden table of the same colour.
+/// What each pixel of a still camera shows when nobody stands before it, learned while nothing
+/// moves near the pixel. People sway all the time, furniture never does: that is what tells a hand
+/// at rest from a wooden table of the same colour.
 class BackgroundModel {
  public:
   enum Knowledge : unsigned char {
@@ -43,8 +45,9 @@ class BackgroundModel {
   explicit BackgroundModel(const BackgroundModelConfig& config = {});
 
   /// Takes in the next working image, `elapsed_s` after the last one. `held` (CV_8UC1):
-  /// pixels not 0 are held to be moving, whatever they look like. `reach_px`: how far motion keeps the pixels around it awake.
-  /// The light is normalised to that of the background: `normalised()` is what to look at.
+  /// pixels not 0 are held to be moving, whatever they look like. `reach_px`: how far motion keeps
+  /// the pixels around it awake. The light is normalised to that of the background: `normalised()`
+  /// is what to look at.
   void Update(const cv::Mat& bgr, const cv::Mat& held, double elapsed_s, int reach_px);
 
   void Reset();  ///< Forgets everything, as before the first image.
@@ -65,14 +68,14 @@ class BackgroundModel {
   void Learn(const cv::Mat& held, double elapsed_s);
 
   BackgroundModelConfig config_;
-  double gain_ = 1.0;       ///< Light now over light of the background.
+  double gain_ = 1.0;  ///< Light now over light of the background.
   bool camera_moves_ = false;
   cv::Mat normalised_;
-  cv::Mat recent_;          ///< CV_16UC3, running average times 128.
-  cv::Mat background_;      ///< CV_16UC3, times 128; valid where known_.
-  cv::Mat known_;           ///< CV_8UC1, 255 where a background was learned.
-  cv::Mat still_ms_;        ///< CV_16UC1, time since the pixel last changed.
-  cv::Mat asleep_ms_;       ///< CV_16UC1, time since anything near the pixel changed.
+  cv::Mat recent_;      ///< CV_16UC3, running average times 128.
+  cv::Mat background_;  ///< CV_16UC3, times 128; valid where known_.
+  cv::Mat known_;       ///< CV_8UC1, 255 where a background was learned.
+  cv::Mat still_ms_;    ///< CV_16UC1, time since the pixel last changed.
+  cv::Mat asleep_ms_;   ///< CV_16UC1, time since anything near the pixel changed.
   cv::Mat changed_;
   cv::Mat awake_;
   cv::Mat knowledge_;

@@ -21,8 +21,8 @@ Eigen::MatrixXd WithDummies(const Eigen::MatrixXd& costs, double unassigned_cost
   return all;
 }
 
-/// Shortest augmenting paths over a matrix with at least as many columns as rows. Indices from 1, 0 is
-/// the free column from which each row's path starts.
+/// Shortest augmenting paths over a matrix with at least as many columns as rows. Indices from 1, 0
+/// is the free column from which each row's path starts.
 class ShortestPaths {
  public:
   explicit ShortestPaths(const Eigen::MatrixXd& costs)

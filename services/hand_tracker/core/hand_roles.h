@@ -10,11 +10,11 @@
 namespace deixis::hand_tracker {
 
 struct HandRolesConfig {
-  double side_rate = 3.0;         ///< How fast a hand's place speaks for its side, nats/(s * hand length).
-  double side_limit = 5.0;        ///< Largest log-odds of a side.
-  double intent_time_s = 0.7;     ///< Over which motion is summed up to intent.
-  double least_speed = 0.8;       ///< Below this no hand is acting, hand lengths/s.
-  double switch_ratio = 1.5;      ///< The other hand must be this much livelier to take over.
+  double side_rate = 3.0;  ///< How fast a hand's place speaks for its side, nats/(s * hand length).
+  double side_limit = 5.0;     ///< Largest log-odds of a side.
+  double intent_time_s = 0.7;  ///< Over which motion is summed up to intent.
+  double least_speed = 0.8;    ///< Below this no hand is acting, hand lengths/s.
+  double switch_ratio = 1.5;   ///< The other hand must be this much livelier to take over.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -29,10 +29,10 @@ struct HandRolesConfig {
 
 /// What a hand is to its person.
 struct HandRole {
-  int person = -1;                ///< Key of the person (face id); -1 = nobody's.
-  double left_log_odds = 0.0;     ///< Of being the left hand, from where it was seen so far.
-  double side_score = 0.0;        ///< The same after the other hand had its say.
-  double speed = 0.0;             ///< Recent mean, hand lengths/s.
+  int person = -1;             ///< Key of the person (face id); -1 = nobody's.
+  double left_log_odds = 0.0;  ///< Of being the left hand, from where it was seen so far.
+  double side_score = 0.0;     ///< The same after the other hand had its say.
+  double speed = 0.0;          ///< Recent mean, hand lengths/s.
   bool is_acting = false;
 };
 

@@ -41,13 +41,12 @@ void HandTrackConfig::Validate() const {
   faults.ThrowIfAny();
 }
 
-HandTrack::HandTrack(int id, const HandTrackConfig& config, const HandCandidate& candidate,
-                     double hand_length_px)
+HandTrack::HandTrack(int id, const HandTrackConfig& config, const HandCandidate& candidate)
     : id_(id),
       config_(config),
-      hand_length_px_(hand_length_px),
-      x_(NewFilter(config, candidate.centre.x(), hand_length_px)),
-      y_(NewFilter(config, candidate.centre.y(), hand_length_px)),
+      hand_length_px_(candidate.hand_length_px),
+      x_(NewFilter(config, candidate.centre.x(), hand_length_px_)),
+      y_(NewFilter(config, candidate.centre.y(), hand_length_px_)),
       latest_(candidate),
       liveliness_(candidate.moving_share) {}
 
@@ -56,13 +55,13 @@ void HandTrack::Predict(double elapsed_s) {
   y_.Predict(elapsed_s);
 }
 
-void HandTrack::Measure(const HandCandidate& candidate, double hand_length_px, double elapsed_s) {
-  hand_length_px_ = hand_length_px;
+void HandTrack::Measure(const HandCandidate& candidate, double elapsed_s) {
+  hand_length_px_ = candidate.hand_length_px;
   latest_ = candidate;
   if (SquaredDistance(candidate.centre) > kJump) {
     Restart(candidate.centre);
   } else {
-    Correct(candidate.centre, config_.centre_noise * hand_length_px);
+    Correct(candidate.centre, config_.centre_noise * hand_length_px_);
   }
   state_ = scene::HandState::kMeasured;
   unseen_s_ = 0.0;
@@ -87,9 +86,10 @@ void HandTrack::Miss(double elapsed_s) {
   SlowDown(elapsed_s);
 }
 
-/// A hand that went out of sight is looked for where it vanished, not where its speed would take it.
+/// A hand that went out of sight is looked for where it vanished, not where its speed would take
+/// it.
 void HandTrack::SlowDown(double elapsed_s) {
-  constexpr double kTime_s = 0.15;
+  constexpr double kTime_s = 0.07;
   const double share = std::exp(-elapsed_s / kTime_s);
   x_.Slow(share);
   y_.Slow(share);

@@ -10,16 +10,16 @@ namespace deixis::hand_tracker {
 
 struct HandTrackConfig {
   double jerk_density = 2.0e4;        ///< How abruptly hands move, hand_lengths^2/s^5.
-  double acceleration_time_s = 0.25;  ///< In which a hand's acceleration dies away.
+  double acceleration_time_s = 0.15;  ///< In which a hand's acceleration dies away.
   double centre_noise = 0.04;         ///< Sigma of a measured centre, hand lengths.
-  double confirm_credit = 0.4;        ///< Credit (see HandTrack) from which a track counts as a hand.
-  double moving_credit = 2.0;         ///< Earned per second of motion.
-  double idle_credit = 0.25;          ///< Lost per second without motion.
-  double largest_credit = 2.0;        ///< More is not kept.
-  double moving_share = 0.45;         ///< Of its pixels must change for a hand to be said to move.
-  double hide_time_s = 0.3;           ///< Unseen this long: behind something.
-  double forget_time_s = 1.5;         ///< Unseen this long: given up.
-  double merge_time_s = 2.5;          ///< The same while it may share a region with face or hand.
+  double confirm_credit = 0.4;  ///< Credit (see HandTrack) from which a track counts as a hand.
+  double moving_credit = 2.0;   ///< Earned per second of motion.
+  double idle_credit = 0.25;    ///< Lost per second without motion.
+  double largest_credit = 2.0;  ///< More is not kept.
+  double moving_share = 0.45;   ///< Of its pixels must change for a hand to be said to move.
+  double hide_time_s = 0.3;     ///< Unseen this long: behind something.
+  double forget_time_s = 1.5;   ///< Unseen this long: given up.
+  double merge_time_s = 2.5;    ///< The same while it may share a region with face or hand.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -38,16 +38,16 @@ struct HandTrackConfig {
   void Validate() const;
 };
 
-/// One hand over time. Full image pixels. Its credit says how much speaks for a hand rather than for a
-/// thing of that colour: hands are never quite still; a track without credit is given up.
+/// One hand over time. Full image pixels. Its credit says how much speaks for a hand rather than
+/// for a thing of that colour: hands are never quite still; a track without credit is given up.
 class HandTrack {
  public:
-  HandTrack(int id, const HandTrackConfig& config, const HandCandidate& candidate,
-            double hand_length_px);
+  HandTrack(int id, const HandTrackConfig& config, const HandCandidate& candidate);
 
   void Predict(double elapsed_s);
-  void Measure(const HandCandidate& candidate, double hand_length_px, double elapsed_s);
-  /// Nothing of its own was found, but it may be within what is at `centre`, which is known to `sigma`.
+  void Measure(const HandCandidate& candidate, double elapsed_s);
+  /// Nothing of its own was found, but it may be within what is at `centre`, which is known to
+  /// `sigma`.
   void Merge(const Eigen::Vector2d& centre, double sigma_px, double elapsed_s);
   /// Nothing was found.
   void Miss(double elapsed_s);

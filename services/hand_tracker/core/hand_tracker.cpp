@@ -9,9 +9,8 @@
 namespace deixis::hand_tracker {
 namespace {
 
-constexpr double kFaceReach = 1.1;  // From the face's centre, hand lengths.
-
-/// Hand length of whoever was seen most, working pixels; a share of the picture when nobody is known.
+/// Hand length of whoever was seen most, working pixels; a share of the picture when nobody is
+/// known.
 double TypicalHandLength(const std::vector<Person>& people, const WorkingImage& working) {
   constexpr double kShareOfHeight = 0.45;
   if (people.empty()) return kShareOfHeight * working.bgr.rows;
@@ -19,21 +18,6 @@ double TypicalHandLength(const std::vector<Person>& people, const WorkingImage& 
       people.begin(), people.end(),
       [](const Person& a, const Person& b) { return a.times_seen < b.times_seen; });
   return HandLength(*most_seen) / working.scale;
-}
-
-HandCandidate ToFull(const HandCandidate& candidate, double scale) {
-  HandCandidate full = candidate;
-  full.centre = hand_tracker::ToFull(candidate.centre, scale);
-  full.tip = hand_tracker::ToFull(candidate.tip, scale);
-  full.box = hand_tracker::ToFull(candidate.box, scale);
-  full.area_px *= scale * scale;
-  full.region_area_px *= scale * scale;
-  full.region_length_px *= scale;
-  return full;
-}
-
-Eigen::Vector2d RegionCentre(const SkinRegion& region) {
-  return 0.5 * Eigen::Vector2d(region.left + region.right, region.top + region.bottom);
 }
 
 /// Marks a region with a rim of two pixels.
@@ -131,8 +115,8 @@ bool HandTracker::MovesInside(const scene::Box& box) const {
 
 double HandTracker::Advance(const images::Image& image) {
   const double elapsed_s = time_ ? SecondsBetween(*time_, image.time) : 0.0;
-  const bool is_continued = time_ && elapsed_s >= 0.0 && elapsed_s <= config_.longest_gap_s &&
-                            image.bgr.size() == size_;
+  const bool is_continued =
+      time_ && elapsed_s >= 0.0 && elapsed_s <= config_.longest_gap_s && image.bgr.size() == size_;
   if (!is_continued) Reset();
   time_ = image.time;
   size_ = image.bgr.size();
@@ -149,7 +133,8 @@ void HandTracker::Reset() {
   since_learning_s_ = 0.0;
 }
 
-/// The hands that are followed, and the arms that they belong to, must not become background by resting.
+/// The hands that are followed, and the arms that they belong to, must not become background by
+/// resting.
 void HandTracker::HoldHands() {
   held_ = cv::Mat::zeros(working_.bgr.size(), CV_8UC1);
   const bool fits = evidence_.size() == held_.size();
@@ -180,8 +165,8 @@ void HandTracker::LearnColours() {
   since_learning_s_ = 0.0;
 }
 
-/// Pixels that show what could be taken for a hand but is none: not the faces, not the hands, and not
-/// the background that is known anyway.
+/// Pixels that show what could be taken for a hand but is none: not the faces, not the hands, and
+/// not the background that is known anyway.
 cv::Mat HandTracker::SceneMask() const {
   cv::Mat mask = background_.knowledge() != BackgroundModel::kBackground;
   mask.setTo(0, held_);
@@ -201,36 +186,14 @@ void HandTracker::FindEvidence() {
 }
 
 Observation HandTracker::Observe(double elapsed_s) {
-  Observation observation;
-  observation.people = persons_;
-  observation.elapsed_s = elapsed_s;
   const double typical = TypicalHandLength(persons_, working_);
-  const double least = persons_.empty() ? 0.0004 * static_cast<double>(evidence_.total())
-                                        : 0.06 * typical * typical;
+  const double least =
+      persons_.empty() ? 0.0004 * static_cast<double>(evidence_.total()) : 0.06 * typical * typical;
   regions_ = FindRegions(evidence_, {config_.low_threshold, config_.high_threshold},
                          std::max(6, static_cast<int>(least)));
-  const SkinPicture picture{evidence_, background_.changed()};
-  for (std::size_t i = 0; i < regions_.size(); ++i) {
-    const Eigen::Vector2d centre = hand_tracker::ToFull(RegionCentre(regions_[i]), working_.scale);
-    const Person* person = NearestPerson(persons_, centre, 2.0 * config_.tracks.reach);
-    double hand_length = person != nullptr ? HandLength(*person) / working_.scale
-                                           : std::min(typical, GuessHandLength(regions_[i]));
-    std::vector<Eigen::Vector2d> shoulders;
-    if (person != nullptr) {
-      for (const Eigen::Vector2d& shoulder : Shoulders(*person)) {
-        shoulders.push_back(ToWorking(shoulder, working_.scale));
-      }
-    }
-    for (HandCandidate& hand : FindCandidates(regions_[i], picture, hand_length, shoulders)) {
-      hand.region = static_cast<int>(i);
-      hand.is_at_face = person != nullptr &&
-                        DistanceFromFace(*person, hand_tracker::ToFull(hand.centre, working_.scale)) <
-                            kFaceReach;
-      observation.candidates.push_back(ToFull(hand, working_.scale));
-      observation.hand_lengths_px.push_back(hand_length * working_.scale);
-    }
-  }
-  return observation;
+  return {ObserveCandidates(regions_, {evidence_, background_.changed()}, persons_, working_.scale,
+                            typical),
+          persons_, elapsed_s};
 }
 
 scene::Hands HandTracker::Report(const images::Image& image) const {

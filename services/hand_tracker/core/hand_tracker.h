@@ -18,15 +18,16 @@
 namespace deixis::hand_tracker {
 
 struct HandTrackerConfig {
-  int working_width_px = 320;        ///< Width at which images are searched.
-  int low_threshold = 150;           ///< Evidence (0..255) from which a pixel belongs to a region.
-  int high_threshold = 200;          ///< Evidence that a region must reach somewhere.
-  double thinnest = 0.1;             ///< Skin thinner than this is left out, hand lengths.
-  double largest_held_area = 2.5;    ///< Of a region kept from becoming background, hand lengths squared.
-  double report_time_s = 0.5;        ///< Hands unseen for longer are no longer told.
-  double face_memory_s = 10.0;       ///< How long a face that is out of sight still counts.
-  double learn_interval_s = 0.25;    ///< Time between two looks at what skin and scene look like.
-  double longest_gap_s = 2.0;        ///< A longer gap between images starts everything anew.
+  int working_width_px = 320;  ///< Width at which images are searched.
+  int low_threshold = 150;     ///< Evidence (0..255) from which a pixel belongs to a region.
+  int high_threshold = 200;    ///< Evidence that a region must reach somewhere.
+  double thinnest = 0.1;       ///< Skin thinner than about this is smoothed away, hand lengths.
+  double largest_held_area =
+      2.5;                     ///< Of a region kept from becoming background, hand lengths squared.
+  double report_time_s = 0.5;  ///< Hands unseen for longer are no longer told.
+  double face_memory_s = 10.0;     ///< How long a face that is out of sight still counts.
+  double learn_interval_s = 0.25;  ///< Time between two looks at what skin and scene look like.
+  double longest_gap_s = 2.0;      ///< A longer gap between images starts everything anew.
   skin::SkinModelConfig skin;
   BackgroundModelConfig background;
   HandTracksConfig tracks;
@@ -51,8 +52,8 @@ struct HandTrackerConfig {
   void Validate() const;
 };
 
-/// Hands of the people in a picture, found by the colour of their skin and by their motion and followed
-/// by Kalman filters (Hofemann, Fritsch, Sagerer 2004, section 3).
+/// Hands of the people in a picture, found by the colour of their skin and by their motion and
+/// followed by Kalman filters (Hofemann, Fritsch, Sagerer 2004, section 3).
 class HandTracker {
  public:
   explicit HandTracker(const HandTrackerConfig& config = {});
@@ -65,8 +66,6 @@ class HandTracker {
 
   /// What the last image looked like to the tracker (CV_8UC1, working size).
   const cv::Mat& evidence() const { return evidence_; }
-  const std::vector<Person>& persons() const { return persons_; } const skin::SkinModel& skin() const { return skin_; } const BackgroundModel& bg() const { return background_; }
-  double MovingShareOf(int id) const { for (const auto& t : tracks_.tracks()) if (t.id() == id) return t.latest().moving_share; return 0; }
 
  private:
   bool MovesInside(const scene::Box& box) const;
@@ -87,10 +86,10 @@ class HandTracker {
   HandTracks tracks_;
   HandRoles roles_;
 
-  std::optional<Timestamp> time_;   ///< Of the last image.
-  cv::Size size_;                   ///< Of the last image.
+  std::optional<Timestamp> time_;  ///< Of the last image.
+  cv::Size size_;                  ///< Of the last image.
   double since_learning_s_ = 0.0;
-  std::vector<Person> persons_;     ///< Established at the last image.
+  std::vector<Person> persons_;  ///< Established at the last image.
   WorkingImage working_;
   cv::Mat evidence_;
   std::vector<SkinRegion> regions_;  ///< Of the evidence.

@@ -2,20 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "services/hand_tracker/core/hand_association.h"
 
 namespace deixis::hand_tracker {
 namespace {
 
-/// Where the track's prediction lies in a candidate's region: near enough to share it.
+/// A candidate that a track may share with another hand: near its prediction, and larger than it
+/// was.
 const HandCandidate* SharedCandidate(const HandTrack& track,
                                      const std::vector<HandCandidate>& candidates) {
+  constexpr double kGrowth = 1.3;  // Of a hand's area.
   for (const HandCandidate& candidate : candidates) {
-    if (scene::DistanceTo(candidate.box, track.centre()) < 0.3 * track.hand_length_px()) {
-      return &candidate;
-    }
+    const bool is_near =
+        scene::DistanceTo(candidate.box, track.centre()) < 0.3 * track.hand_length_px();
+    const bool holds_both = candidate.area_px > kGrowth * track.latest().area_px;
+    if (is_near && holds_both) return &candidate;
   }
   return nullptr;
 }
@@ -34,6 +36,39 @@ bool IsOnChest(const Person& person, const Eigen::Vector2d& point) {
 /// How long a track has done without a region of its own.
 double LostTime(const HandTrack& track) { return std::max(track.unseen_s(), track.merged_s()); }
 
+/// The one of `hands` that lies so near to the newcomer's shoulder that it is rather the elbow of its arm;
+/// nullptr = none.
+HandTrack* ElbowBefore(const std::vector<HandTrack*>& hands, const HandTrack& newcomer) {
+  constexpr double kUpperArm = 1.5;  // From the shoulder, hand lengths.
+  const double bar = kUpperArm * newcomer.hand_length_px();
+  if (newcomer.latest().shoulder < 0 || newcomer.latest().shoulder_distance_px < bar) return nullptr;
+  const auto elbow = std::find_if(hands.begin(), hands.end(), [&](const HandTrack* hand) {
+    return hand->latest().shoulder == newcomer.latest().shoulder &&
+           hand->latest().shoulder_distance_px < bar;
+  });
+  return elbow == hands.end() ? nullptr : *elbow;
+}
+
+/// Which of a person's `hands` has to make room for `newcomer`; nullptr = none. Two on one arm
+/// cannot both be hands: the inner one goes when the other arm shows one. Else the newcomer must be
+/// livelier.
+HandTrack* Replaced(const std::vector<HandTrack*>& hands, const HandTrack& newcomer) {
+  constexpr double kMargin = 0.25;
+  HandTrack* weakest = *std::min_element(
+      hands.begin(), hands.end(),
+      [](const HandTrack* a, const HandTrack* b) { return a->liveliness() < b->liveliness(); });
+  if (newcomer.liveliness() > weakest->liveliness() + kMargin) return weakest;
+  const int shoulder = newcomer.latest().shoulder;
+  const bool is_other_arm =
+      shoulder >= 0 && std::all_of(hands.begin(), hands.end(), [&](const HandTrack* hand) {
+        return hand->latest().shoulder == 1 - shoulder;
+      });
+  if (!is_other_arm) return ElbowBefore(hands, newcomer);
+  return *std::min_element(hands.begin(), hands.end(), [](const HandTrack* a, const HandTrack* b) {
+    return a->latest().shoulder_distance_px < b->latest().shoulder_distance_px;
+  });
+}
+
 }  // namespace
 
 void HandTracksConfig::Validate() const {
@@ -42,6 +77,7 @@ void HandTracksConfig::Validate() const {
   faults.Require(gate > 0.0, "gate", "must be positive");
   faults.Require(gate_speed > 0.0, "gate_speed", "must be positive");
   faults.Require(reach > 0.0, "reach", "must be positive");
+  faults.Require(arm_length > 0.0, "arm_length", "must be positive");
   faults.Require(least_area > 0.0, "least_area", "must be positive");
   faults.Require(largest_area > least_area, "largest_area", "must exceed least_area");
   faults.Require(separation >= 0.0, "separation", "must not be negative");
@@ -61,7 +97,7 @@ void HandTracks::Update(const Observation& observation) {
 }
 
 double HandTracks::Cost(const HandTrack& track, const HandCandidate& candidate,
-                        double hand_length_px, double elapsed_s) const {
+                        double elapsed_s) const {
   constexpr double kAreaCost = 2.0;
   constexpr double kShoulderCost = 9.0;
   constexpr double kStillCost = 20.0;
@@ -72,7 +108,8 @@ double HandTracks::Cost(const HandTrack& track, const HandCandidate& candidate,
   const double unseen_s =
       may_have_come_far ? std::min(LostTime(track) + elapsed_s, kLongest_s) : elapsed_s;
   if (distance > config_.gate + config_.gate_speed * unseen_s) return kForbidden;
-  if (candidate.area_px > 1.3 * config_.largest_area * hand_length_px * hand_length_px) {
+  if (candidate.area_px >
+      1.3 * config_.largest_area * candidate.hand_length_px * candidate.hand_length_px) {
     return kForbidden;
   }
   const double squared = track.SquaredDistance(candidate.centre);
@@ -85,7 +122,8 @@ double HandTracks::Cost(const HandTrack& track, const HandCandidate& candidate,
 
 std::vector<int> HandTracks::Associate(const Observation& observation) const {
   constexpr double kUnassignedCost = 400.0;
-  constexpr double kTentativeCost = 30.0;  // Hands that are known choose first.
+  constexpr double kLostCost = 20.0;       // A hand in sight keeps its region.
+  constexpr double kTentativeCost = 60.0;  // Hands that are known choose first.
   Eigen::MatrixXd costs(static_cast<Eigen::Index>(tracks_.size()),
                         static_cast<Eigen::Index>(observation.candidates.size()));
   for (Eigen::Index row = 0; row < costs.rows(); ++row) {
@@ -93,10 +131,9 @@ std::vector<int> HandTracks::Associate(const Observation& observation) const {
     for (Eigen::Index column = 0; column < costs.cols(); ++column) {
       costs(row, column) =
           std::min(Cost(track, observation.candidates[static_cast<std::size_t>(column)],
-                        observation.hand_lengths_px[static_cast<std::size_t>(column)],
                         observation.elapsed_s),
                    kForbidden) +
-          (track.is_confirmed() ? 0.0 : kTentativeCost);
+          (track.is_confirmed() ? 0.0 : kTentativeCost) + (LostTime(track) > 0.0 ? kLostCost : 0.0);
     }
   }
   return Assign(costs, kUnassignedCost);
@@ -106,8 +143,7 @@ void HandTracks::Follow(const Observation& observation, const std::vector<int>& 
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (candidate_of[i] >= 0) {
       const auto candidate = static_cast<std::size_t>(candidate_of[i]);
-      tracks_[i].Measure(observation.candidates[candidate],
-                         observation.hand_lengths_px[candidate], observation.elapsed_s);
+      tracks_[i].Measure(observation.candidates[candidate], observation.elapsed_s);
     } else {
       FollowUnseen(observation, tracks_[i]);
     }
@@ -127,8 +163,9 @@ void HandTracks::FollowUnseen(const Observation& observation, HandTrack& track) 
 
 bool HandTracks::IsPlausibleBirth(const Observation& observation, std::size_t candidate) const {
   const HandCandidate& hand = observation.candidates[candidate];
-  const double unit = observation.hand_lengths_px[candidate];
+  const double unit = hand.hand_length_px;
   const double area = hand.area_px / (unit * unit);
+  if (hand.root_distance_px > config_.arm_length * unit) return false;  // A leg.
   if (hand.is_at_shoulder || area < config_.least_area || area > config_.largest_area) return false;
   for (const HandTrack& track : tracks_) {
     if ((track.centre() - hand.centre).norm() < config_.separation * unit) return false;
@@ -146,41 +183,34 @@ void HandTracks::Bear(const Observation& observation, const std::vector<int>& ca
   }
   for (std::size_t i = 0; i < observation.candidates.size(); ++i) {
     if (is_taken[i] || !IsPlausibleBirth(observation, i)) continue;
-    tracks_.emplace_back(next_id_++, config_.track, observation.candidates[i],
-                         observation.hand_lengths_px[i]);
+    tracks_.emplace_back(next_id_++, config_.track, observation.candidates[i]);
   }
 }
 
-/// A person has two hands: a newcomer takes the place of the weaker one only if it is clearly livelier.
+/// A person has two hands: a newcomer takes the place of the weaker one only if it is clearly
+/// livelier.
 void HandTracks::Confirm(const Observation& observation) {
-  constexpr double kMargin = 0.25;
   for (HandTrack& track : tracks_) {
     const Person* person = NearestPerson(observation.people, track.centre(), config_.reach);
     if (track.is_confirmed() || track.credit() < config_.track.confirm_credit) continue;
-    HandTrack* weaker = WeakerOfTwo(observation, person);
-    if (weaker == nullptr) {
-      track.Confirm();
-    } else if (track.liveliness() > weaker->liveliness() + kMargin) {
-      weaker->Dismiss();
-      track.Confirm();
-    }
+    const std::vector<HandTrack*> hands = HandsOf(observation, person);
+    HandTrack* replaced = hands.size() < 2 ? nullptr : Replaced(hands, track);
+    if (hands.size() >= 2 && replaced == nullptr) continue;
+    if (replaced != nullptr) replaced->Dismiss();
+    track.Confirm();
   }
 }
 
-/// Of the hands confirmed for `person` (nullptr = for nobody), the less lively one; nullptr while
-/// there are fewer than two.
-HandTrack* HandTracks::WeakerOfTwo(const Observation& observation, const Person* person) {
-  HandTrack* weaker = nullptr;
-  int n_hands = 0;
+/// The hands confirmed for `person` (nullptr = for nobody).
+std::vector<HandTrack*> HandTracks::HandsOf(const Observation& observation, const Person* person) {
+  std::vector<HandTrack*> hands;
   for (HandTrack& track : tracks_) {
-    if (!track.is_confirmed() ||
-        NearestPerson(observation.people, track.centre(), config_.reach) != person) {
-      continue;
+    if (track.is_confirmed() &&
+        NearestPerson(observation.people, track.centre(), config_.reach) == person) {
+      hands.push_back(&track);
     }
-    ++n_hands;
-    if (weaker == nullptr || track.liveliness() < weaker->liveliness()) weaker = &track;
   }
-  return n_hands < 2 ? nullptr : weaker;
+  return hands;
 }
 
 /// Two tracks of one hand: the older one stays.
@@ -195,21 +225,6 @@ void HandTracks::RemoveTwins() {
       }
     }
   }
-}
-
-const Person* NearestPerson(const std::vector<Person>& people, const Eigen::Vector2d& centre,
-                            double reach) {
-  const Person* nearest = nullptr;
-  double least = std::numeric_limits<double>::max();
-  for (const Person& person : people) {
-    if (DistanceFromFace(person, centre) > reach) continue;
-    const double distance = (centre - scene::Centre(person.face)).norm();
-    if (distance < least) {
-      least = distance;
-      nearest = &person;
-    }
-  }
-  return nearest;
 }
 
 }  // namespace deixis::hand_tracker

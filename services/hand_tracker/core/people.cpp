@@ -6,17 +6,15 @@
 namespace deixis::hand_tracker {
 namespace {
 
-// Proportions in face boxes, from shares of the stature: box 0.1045, shoulder 0.102 out and 0.118 below
-// the face's centre, upper arm 0.1455, forearm 0.139, wrist to the hand's centre 0.045.
-constexpr double kShoulderOut = 0.98;
-constexpr double kShoulderDown = 1.13;
-// A detector errs now and then: a face must be seen several times, and is remembered for the longer the
-// more often it was.
-constexpr int kLeastSights = 4;
+// Proportions in face boxes, from shares of the stature: box 0.1045, shoulder 0.102 out and 0.118
+// below the face's centre, upper arm 0.1455, forearm 0.139, wrist to the hand's centre 0.045.
+constexpr double kShoulderOut = 0.88;
+constexpr double kShoulderDown = 1.03;
+// A detector errs now and then: a face must be seen several times, and is remembered for the longer
+// the more often it was.
+constexpr int kLeastSights = 2;
 constexpr double kLeastLiveliness = 0.25;
 constexpr double kTrustPerSight_s = 0.4;
-constexpr double kRestOut = 1.15;
-constexpr double kRestDown = 3.2;
 
 std::array<Eigen::Vector2d, 2> Pair(const Person& person, double out, double down) {
   const Eigen::Vector2d face = scene::Centre(person.face);
@@ -35,14 +33,21 @@ bool IsUsable(const scene::Object& object) {
          object.box->height_px > 0.0 && object.visibility == scene::Visibility::kSeen;
 }
 
+bool CouldHaveMovedTo(const Person& person, const scene::Box& box, Timestamp time) {
+  constexpr double kFarthest = 1.5;  // In hand lengths ...
+  constexpr double kSpeed = 2.0;     // ... and per second.
+  constexpr double kSizeRatio = 1.5;
+  const double away_s = SecondsBetween(person.last_seen, time);
+  const double distance = DistanceFromFace(person, scene::Centre(box));
+  const double ratio = box.height_px / person.face.height_px;
+  return away_s > 0.0 && distance < std::min(kFarthest, 0.5 + kSpeed * away_s) &&
+         ratio < kSizeRatio && ratio > 1.0 / kSizeRatio;
+}
+
 }  // namespace
 
 std::array<Eigen::Vector2d, 2> Shoulders(const Person& person) {
   return Pair(person, kShoulderOut, kShoulderDown);
-}
-
-std::array<Eigen::Vector2d, 2> RestPlaces(const Person& person) {
-  return Pair(person, kRestOut, kRestDown);
 }
 
 double DistanceFromFace(const Person& person, const Eigen::Vector2d& point) {
@@ -63,11 +68,11 @@ void People::Update(const scene::Objects& objects) {
 }
 
 void People::Update(const scene::Object& face, Timestamp time) {
-  constexpr double kFollow = 0.5;      // Of a new box's place ...
-  constexpr double kFollowSize = 0.15; // ... and of its size, which detectors know less well.
-  Person* person = Find(face);
+  constexpr double kFollow = 0.5;       // Of a new box's place ...
+  constexpr double kFollowSize = 0.15;  // ... and of its size, which detectors know less well.
+  Person* person = Find(face, time);
   if (person == nullptr) {
-    people_.push_back({face.person_id, face.id, *face.box, time, 1, 0.0});
+    people_.push_back({face.person_id, face.id, *face.box, time, 1, 0, 0.0});
     return;
   }
   const Eigen::Vector2d centre = scene::Centre(Blend(person->face, *face.box, kFollow));
@@ -80,7 +85,9 @@ void People::Update(const scene::Object& face, Timestamp time) {
   ++person->times_seen;
 }
 
-Person* People::Find(const scene::Object& face) {
+/// The person whose face this is: the same id, the largest overlap, or whoever was out of sight and
+/// could have moved here since.
+Person* People::Find(const scene::Object& face, Timestamp time) {
   constexpr double kLeastOverlap = 0.25;
   Person* best = nullptr;
   double best_overlap = kLeastOverlap;
@@ -92,13 +99,18 @@ Person* People::Find(const scene::Object& face) {
       best_overlap = overlap;
     }
   }
-  return best;
+  if (best != nullptr) return best;
+  const auto moved = std::find_if(people_.begin(), people_.end(), [&](const Person& person) {
+    return CouldHaveMovedTo(person, *face.box, time);
+  });
+  return moved == people_.end() ? nullptr : &*moved;
 }
 
 void People::NoteMotion(const std::function<bool(const scene::Box&)>& moves, double elapsed_s) {
   constexpr double kTime_s = 2.0;
-  const double share = 1.0 - std::exp(-elapsed_s / kTime_s);
+  const double usual_share = 1.0 - std::exp(-elapsed_s / kTime_s);
   for (Person& person : people_) {
+    const double share = std::max(usual_share, 1.0 / ++person.images);  // A plain mean at first.
     person.liveliness += share * ((moves(person.face) ? 1.0 : 0.0) - person.liveliness);
   }
 }
@@ -116,7 +128,8 @@ void People::Forget(Timestamp now) {
 std::vector<Person> People::established() const {
   std::vector<Person> established;
   for (const Person& person : people_) {
-    if (person.times_seen >= kLeastSights && person.liveliness > kLeastLiveliness) established.push_back(person);
+    if (person.times_seen >= kLeastSights && person.liveliness > kLeastLiveliness)
+      established.push_back(person);
   }
   return established;
 }

@@ -17,18 +17,17 @@ struct Person {
   scene::Box face;     ///< Smoothed.
   Timestamp last_seen;
   int times_seen = 0;
+  int images = 0;           ///< Since it was first seen.
   double liveliness = 0.0;  ///< Recent share of images in which the face moved a little.
 };
 
 /// Wrist crease to fingertip, about as long as a face detector's box is high (0.108 of the stature
-/// against 0.1045; ANSUR II and our own measurement of the box).
+/// in ANSUR II against about 0.115).
 inline double HandLength(const Person& person) { return person.face.height_px; }
 
-/// Where the shoulders lie below a face turned to the camera: the person's right one, then the left.
+/// Where the shoulders lie below a face turned to the camera: the person's right one, then the
+/// left.
 std::array<Eigen::Vector2d, 2> Shoulders(const Person& person);
-
-/// Where hands hang at rest: the right one, then the left.
-std::array<Eigen::Vector2d, 2> RestPlaces(const Person& person);
 
 /// Distance of a point from the face in hand lengths.
 double DistanceFromFace(const Person& person, const Eigen::Vector2d& point);
@@ -36,7 +35,8 @@ double DistanceFromFace(const Person& person, const Eigen::Vector2d& point);
 /// Whether a point lies on face or neck, where a hand cannot be told by its colour.
 bool IsOnFace(const Person& person, const Eigen::Vector2d& point);
 
-/// Remembers the people whose faces were seen lately, whether the news of them comes in time or late.
+/// Remembers the people whose faces were seen lately, whether the news of them comes in time or
+/// late.
 class People {
  public:
   explicit People(double memory_s) : memory_s_(memory_s) {}
@@ -49,12 +49,13 @@ class People {
   /// Asks of every face whether something moves inside its box, `elapsed_s` after the last time.
   void NoteMotion(const std::function<bool(const scene::Box&)>& moves, double elapsed_s);
 
-  /// Those seen several times and moving most of the time, as pictures on a wall do not; a face that flashes up once is nobody.
+  /// Those seen several times and moving most of the time, as pictures on a wall do not; a face
+  /// that flashes up once is nobody.
   std::vector<Person> established() const;
 
  private:
   void Update(const scene::Object& face, Timestamp time);
-  Person* Find(const scene::Object& face);
+  Person* Find(const scene::Object& face, Timestamp time);
 
   double memory_s_;
   std::vector<Person> people_;

@@ -40,8 +40,8 @@ class BucketQueue {
 RegionGeodesics::RegionGeodesics(const SkinRegion& region) : region_(region) {
   const int width = region.right - region.left + 3;
   const int height = region.bottom - region.top + 3;
-  std::vector<std::int32_t> index(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-                                  -1);
+  std::vector<std::int32_t> index(
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height), -1);
   const auto cell = [&](int x, int y) -> std::int32_t& {
     return index[static_cast<std::size_t>((y - region.top + 1) * width + (x - region.left + 1))];
   };
@@ -82,8 +82,8 @@ std::vector<int> RegionGeodesics::DistancesFrom(int start) const {
 }
 
 double RegionGeodesics::WidestRadius() const {
-  cv::Mat mask = cv::Mat::zeros(region_.bottom - region_.top + 3, region_.right - region_.left + 3,
-                                CV_8UC1);
+  cv::Mat mask =
+      cv::Mat::zeros(region_.bottom - region_.top + 3, region_.right - region_.left + 3, CV_8UC1);
   for (const Eigen::Vector2i& point : points_) {
     mask.at<std::uint8_t>(point.y() - region_.top + 1, point.x() - region_.left + 1) = 255;
   }

@@ -61,19 +61,6 @@ void JoinRows(const std::vector<FoundRun>& runs, std::size_t begin, std::size_t 
   }
 }
 
-void AddRun(const Run& run, SkinRegion& region) {
-  if (region.runs.empty()) {
-    region.left = run.first;
-    region.top = run.row;
-    region.right = run.last;
-  }
-  region.left = std::min(region.left, run.first);
-  region.right = std::max(region.right, run.last);
-  region.bottom = run.row;
-  region.area_px += run.last - run.first + 1;
-  region.runs.push_back(run);
-}
-
 std::vector<FoundRun> FindRuns(const cv::Mat& evidence, const HysteresisThresholds& thresholds,
                                std::vector<std::size_t>& row_begins) {
   std::vector<FoundRun> runs;
@@ -109,6 +96,19 @@ std::vector<SkinRegion> CollectRegions(const std::vector<FoundRun>& runs, Unions
 }
 
 }  // namespace
+
+void AddRun(const Run& run, SkinRegion& region) {
+  if (region.runs.empty()) {
+    region.left = run.first;
+    region.top = run.row;
+    region.right = run.last;
+  }
+  region.left = std::min(region.left, run.first);
+  region.right = std::max(region.right, run.last);
+  region.bottom = run.row;
+  region.area_px += run.last - run.first + 1;
+  region.runs.push_back(run);
+}
 
 std::vector<SkinRegion> FindRegions(const cv::Mat& evidence, const HysteresisThresholds& thresholds,
                                     int least_area_px) {

@@ -20,9 +20,12 @@ struct SkinRegion {
   int left = 0, top = 0, right = 0, bottom = 0;  ///< Inclusive bounds.
 };
 
+/// Adds a run that lies in or after the last row of `region`.
+void AddRun(const Run& run, SkinRegion& region);
+
 struct HysteresisThresholds {
   int low = 150;   ///< Evidence (0..255) from which a pixel belongs to a region.
-  int high = 200; ///< Evidence that at least one pixel of a region reaches.
+  int high = 200;  ///< Evidence that at least one pixel of a region reaches.
 };
 
 /// Connected components with hysteresis, found run by run (no label image). Regions smaller than

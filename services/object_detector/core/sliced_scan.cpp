@@ -8,7 +8,7 @@ namespace deixis::object_detector {
 namespace {
 
 constexpr int kGrid_px = 2;  // OpenCV's step at the window's own size.
-constexpr int kWindowsPerSlice = 2000;
+constexpr int kWindowsPerSlice = 1000;
 constexpr double kSameObject = 0.3;  // Overlap from which two answers mean one object.
 
 cv::Mat Resized(const cv::Mat& grey, cv::Size size) {
@@ -53,11 +53,9 @@ void ScanConfig::Check(config::Faults& faults) const {
   faults.Require(max_height <= 1.0, "cascades.scan.max_height", "must not be above 1");
   faults.Require(scale_step >= 1.01 && scale_step <= 2.0, "cascades.scan.scale_step",
                  "must lie in 1.01..2");
-  const std::string too_few = "must be at least " + std::to_string(kWindowsPerSlice);
-  faults.Require(windows_per_image >= kWindowsPerSlice, "cascades.scan.windows_per_image", too_few);
-  faults.Require(windows_while_none >= kWindowsPerSlice, "cascades.scan.windows_while_none",
-                 too_few);
-  faults.Require(windows_at_start >= kWindowsPerSlice, "cascades.scan.windows_at_start", too_few);
+  faults.Require(round_s > 0.0, "cascades.scan.round_s", "must be positive");
+  faults.Require(round_while_none_s > 0.0, "cascades.scan.round_while_none_s", "must be positive");
+  faults.Require(pictures_at_start >= 1, "cascades.scan.pictures_at_start", "must be at least 1");
 }
 
 SlicedScan::SlicedScan(const ScanConfig& config, cv::Size window)
@@ -65,15 +63,20 @@ SlicedScan::SlicedScan(const ScanConfig& config, cv::Size window)
 
 void SlicedScan::Reset() {
   next_ = 0;
+  credit_ = 0.0;
+  last_time_.reset();
   is_first_round_ = true;
 }
 
-std::vector<CascadeHit> SlicedScan::Next(const cv::Mat& grey, Cascade& cascade, Urgency urgency) {
-  if (grey.size() != planned_for_) Plan(grey.size());
+std::vector<CascadeHit> SlicedScan::Next(const GreyPicture& picture, Cascade& cascade,
+                                         Urgency urgency) {
+  if (picture.grey.size() != planned_for_) Plan(picture.grey.size());
+  const std::vector<Slice> slices = TakeSlices(ShareOfRound(picture.time, urgency));
+  last_time_ = picture.time;
   std::vector<scene::Box> boxes;
   cv::Mat level;
-  for (const Slice& slice : TakeSlices(Budget(urgency))) {
-    if (level.size() != slice.level) level = Resized(grey, slice.level);
+  for (const Slice& slice : slices) {
+    if (level.size() != slice.level) level = Resized(picture.grey, slice.level);
     const cv::Mat band = level.rowRange(slice.first_row, slice.first_row + slice.rows);
     for (const scene::Box& box : cascade.AnswersAtWindowSize(band)) {
       boxes.push_back({box.x_px / slice.scale, (box.y_px + slice.first_row) / slice.scale,
@@ -86,15 +89,16 @@ std::vector<CascadeHit> SlicedScan::Next(const cv::Mat& grey, Cascade& cascade, 
 void SlicedScan::Plan(cv::Size picture) {
   planned_for_ = picture;
   slices_.clear();
+  windows_per_round_ = 0.0;
   Reset();
   const double smallest_px = std::max(config_.min_height * picture.height, 1.0 * window_.height);
   const double largest_px = config_.max_height * picture.height;
-  std::vector<double> heights_px;
-  for (double height_px = smallest_px; height_px <= largest_px; height_px *= config_.scale_step) {
-    heights_px.push_back(height_px);
-  }
-  for (auto height_px = heights_px.rbegin(); height_px != heights_px.rend(); ++height_px) {
-    PlanLevel(window_.height / *height_px, picture);
+  if (largest_px < smallest_px) return;
+  const int steps =
+      static_cast<int>(std::log(largest_px / smallest_px) / std::log(config_.scale_step));
+  for (int step = steps; step >= 0; --step) {
+    const double height_px = smallest_px * std::pow(config_.scale_step, step);
+    PlanLevel(window_.height / height_px, picture);
   }
 }
 
@@ -107,26 +111,27 @@ void SlicedScan::PlanLevel(double scale, cv::Size picture) {
   const int rows_per_slice = std::max(1, kWindowsPerSlice / columns);
   for (int row = 0; row < rows; row += rows_per_slice) {
     const int taken = std::min(rows_per_slice, rows - row);
+    windows_per_round_ += taken * columns;
     slices_.push_back(
         {scale, level, row * kGrid_px, (taken - 1) * kGrid_px + window_.height, taken * columns});
   }
 }
 
-int SlicedScan::Budget(Urgency urgency) const {
-  if (is_first_round_) return config_.windows_at_start;
-  return urgency == Urgency::kForAny ? config_.windows_while_none : config_.windows_per_image;
+double SlicedScan::ShareOfRound(Timestamp time, Urgency urgency) const {
+  const double most = 1.0 / config_.pictures_at_start;
+  if (is_first_round_ || !last_time_) return most;
+  const double round_s = urgency == Urgency::kForAny ? config_.round_while_none_s : config_.round_s;
+  return std::clamp(SecondsBetween(*last_time_, time) / round_s, 0.0, most);
 }
 
-std::vector<SlicedScan::Slice> SlicedScan::TakeSlices(int budget) {
+std::vector<SlicedScan::Slice> SlicedScan::TakeSlices(double share) {
   std::vector<Slice> taken;
-  while (taken.size() < slices_.size() && slices_[next_].windows <= budget) {
-    budget -= slices_[next_].windows;
+  credit_ = std::min(credit_, 0.0) + share * windows_per_round_;
+  while (credit_ > 0.0 && taken.size() < slices_.size()) {
     taken.push_back(slices_[next_]);
+    credit_ -= slices_[next_].windows;
     next_ = (next_ + 1) % slices_.size();
-    if (next_ == 0) {
-      is_first_round_ = false;
-      break;
-    }
+    if (next_ == 0) is_first_round_ = false;
   }
   return taken;
 }

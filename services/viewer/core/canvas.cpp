@@ -41,12 +41,11 @@ void DrawPath(const std::vector<cv::Point>& path, const cv::Scalar& colour, int 
 void DrawDashes(cv::Point from, cv::Point to, const cv::Scalar& colour, int thickness,
                 double dash_px, cv::Mat& picture) {
   const cv::Point2d way = to - from;
-  const double length_px = std::min(std::hypot(way.x, way.y), 4.0 * kFarAway_px);
-  for (double begin_px = 0.0; begin_px < length_px; begin_px += 2.0 * dash_px) {
-    const double end_px = std::min(begin_px + dash_px, length_px);
-    const cv::Point2d start(from);
-    DrawPath({start + way * (begin_px / length_px), start + way * (end_px / length_px)}, colour,
-             thickness, picture);
+  const int dashes = static_cast<int>(std::hypot(way.x, way.y) / (2.0 * dash_px)) + 1;
+  const cv::Point2d step = way / (2.0 * dashes - 1.0);  // A dash at either end.
+  for (int i = 0; i < dashes; ++i) {
+    const cv::Point2d start = cv::Point2d(from) + 2.0 * i * step;
+    DrawPath({start, start + step}, colour, thickness, picture);
   }
 }
 

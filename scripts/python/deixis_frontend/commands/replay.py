@@ -16,7 +16,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, help="log file")
     parser.add_argument("--speed", type=_speed, default=1.0, metavar="X",
                         help="2 = twice as fast as recorded (default: 1)")
-    parser.add_argument("--channels", default=".*", metavar="REGEX", help="only these (default: all)")
+    parser.add_argument("--channels", default=".*", metavar="REGEX",
+                        help="only these (default: all)")
 
 
 def run(arguments: argparse.Namespace) -> int:

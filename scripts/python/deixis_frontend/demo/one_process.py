@@ -16,6 +16,8 @@ from deixis_frontend.errors import UserError
 from deixis_frontend.layout import Layout
 
 _SERVICES = "object_detector,hand_tracker,gesture_recogniser"
+# Times as fast as recorded. The viewer takes the newest picture: at full speed it skips most.
+_VIEWER_SPEED = 4
 
 
 def play(clip: Clip, stage: Stage, commentary: Commentary) -> None:
@@ -29,7 +31,7 @@ def play(clip: Clip, stage: Stage, commentary: Commentary) -> None:
                 for key, value in clip.detector_settings().items()]
     _run(offline_command(stage.layout, recorded, results, settings, _SERVICES), stage)
     _tell(results, commentary)
-    _run(_on_log("deixis-viewer", f"{results}?mode=r&speed=0", stage.viewer_settings,
+    _run(_on_log("deixis-viewer", f"{results}?mode=r&speed={_VIEWER_SPEED}", stage.viewer_settings,
                  stage.layout), stage)
 
 

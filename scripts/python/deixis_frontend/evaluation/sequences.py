@@ -125,11 +125,14 @@ class Sequence:
 def read_sequences(
     data: Path, only: str | None = None, needed: tuple[str, ...] = ("joints.csv",)
 ) -> tuple[list[Sequence], list[Skipped]]:
-    """All sequences in `data` (or `data` itself) that have the `needed` files, and those left out."""
+    """The sequences in `data` (or `data` itself) whose name matches the glob `only`: those that have the
+    `needed` files, and those that lack some."""
     folders = [data] if (data / "sequence.csv").exists() else sorted(_folders(data))
     used, skipped = [], []
     for folder in folders:
-        reason = _why_not(folder, only, needed)
+        if only and not fnmatch.fnmatch(folder.name, only):
+            continue
+        reason = _why_not(folder, needed)
         if reason:
             skipped.append(Skipped(folder.name, reason))
         else:
@@ -156,9 +159,7 @@ def _folders(data: Path) -> list[Path]:
     return [folder for folder in data.iterdir() if folder.is_dir()]
 
 
-def _why_not(folder: Path, only: str | None, needed: tuple[str, ...]) -> str:
-    if only and not fnmatch.fnmatch(folder.name, only):
-        return f"does not match {only}"
+def _why_not(folder: Path, needed: tuple[str, ...]) -> str:
     missing = [name for name in ("sequence.csv", *needed) if not (folder / name).exists()]
     return f"has no {', '.join(missing)}" if missing else ""
 

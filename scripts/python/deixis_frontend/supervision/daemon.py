@@ -1,4 +1,4 @@
-"""The supervising process: `python -m deixis_frontend.supervision.daemon`, started by `deixis start`."""
+"""The supervising process, which `deixis start` starts and leaves behind."""
 
 from __future__ import annotations
 

@@ -28,7 +28,8 @@ class RotatingLog:
             self._write(data)
         except OSError as error:
             if not self.lost_bytes:
-                print(f"{self._path}: {error.strerror}: lines are lost", file=sys.stderr, flush=True)
+                print(f"{self._path}: {error.strerror}: lines are lost", file=sys.stderr,
+                      flush=True)
             self.lost_bytes += len(data)
             self.close()
 

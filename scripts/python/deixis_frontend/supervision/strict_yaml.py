@@ -155,4 +155,5 @@ def _syntax_fault(path: Path, error: yaml.YAMLError) -> str:
     mark = getattr(error, "problem_mark", None)
     place = f"{path}:{mark.line + 1}" if mark else str(path)
     problem = getattr(error, "problem", None) or "not YAML"
-    return f"{place}: {problem}: check indentation, colons and quotes of this line and the one before"
+    return (f"{place}: {problem}: check indentation, colons and quotes of this line"
+            " and the one before")

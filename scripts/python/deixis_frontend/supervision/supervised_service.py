@@ -103,7 +103,8 @@ class SupervisedService:
 
     def hear(self, message: Any) -> None:
         """Takes a status message of this service and instance."""
-        if message.host == socket.gethostname() and self._process and self._process.owns(message.pid):
+        is_here = message.host == socket.gethostname()
+        if is_here and self._process and self._process.owns(message.pid):
             self._heard = status_listener.as_facts(message)
             self._heard_at = time.monotonic()
             self._follow(message.state)

@@ -66,12 +66,12 @@ class System:
     def with_needs(self, names: list[str]) -> list[str]:
         """`names` and all that they need; those that others wait for come before these."""
         wanted: set[str] = set()
-        todo = list(names)
-        while todo:
-            name = todo.pop()
+        pending = list(names)
+        while pending:
+            name = pending.pop()
             if name not in wanted:
                 wanted.add(name)
-                todo.extend(self.services[name].needs)
+                pending.extend(self.services[name].needs)
         return [name for name in self._in_order() if name in wanted]
 
     def _in_order(self) -> list[str]:
@@ -178,7 +178,8 @@ def _check_references(system: System, entry: ServiceEntry, top: Section) -> None
     for key, names in (("after", entry.after), ("needs", entry.needs)):
         for name in names:
             if name not in system.services:
-                top.fault("services", f"{entry.name}.{key} names '{name}', which is no service here")
+                top.fault("services",
+                          f"{entry.name}.{key} names '{name}', which is no service here")
     if _leads_back(system, entry.name):
         top.fault("services", f"{entry.name} waits for itself by way of its 'after' and 'needs'")
 
@@ -194,13 +195,13 @@ def _check_twins(system: System, top: Section) -> None:
 
 def _leads_back(system: System, start: str) -> bool:
     seen: set[str] = set()
-    todo = [start]
-    while todo:
-        entry = system.services.get(todo.pop())
+    pending = [start]
+    while pending:
+        entry = system.services.get(pending.pop())
         for name in (*entry.after, *entry.needs) if entry else ():
             if name == start:
                 return True
             if name not in seen:
                 seen.add(name)
-                todo.append(name)
+                pending.append(name)
     return False

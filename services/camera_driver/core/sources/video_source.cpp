@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <opencv2/videoio/registry.hpp>
 #include <utility>
 
 namespace deixis::camera_driver {
@@ -10,13 +11,18 @@ namespace {
 constexpr double kUsualRateHz = 30.0;  // Where a file states no rate at all.
 constexpr int kMaxDamagedInARow = 30;  // Then the rest of the file counts as lost.
 
+// FFmpeg where it is there: trying the others in turn takes long and loads all of GStreamer.
+int FileBackend() {
+  return cv::videoio_registry::hasBackend(cv::CAP_FFMPEG) ? cv::CAP_FFMPEG : cv::CAP_ANY;
+}
+
 cv::VideoCapture Open(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
     throw config::ConfigError("video file '" + path +
                               "' does not exist; set source.path to an existing file");
   }
-  cv::VideoCapture video(path);
+  cv::VideoCapture video(path, FileBackend());
   if (!video.isOpened()) {
     throw config::ConfigError("video file '" + path +
                               "' cannot be opened; set source.path to a video that OpenCV can read "

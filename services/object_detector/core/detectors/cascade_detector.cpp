@@ -155,7 +155,7 @@ std::vector<CascadeHit> CascadeDetector::FindKnown(const ObjectTrack& track, con
 }
 
 void CascadeDetector::LookForNew(const GreyPicture& picture) {
-  std::vector<CascadeHit> places = scan_.Next(picture.grey, cascade_, UrgencyNow());
+  std::vector<CascadeHit> places = scan_.Next(picture, cascade_, UrgencyNow());
   const auto is_known = [this](const CascadeHit& place) {
     const auto& tracks = tracks_.tracks();
     return std::any_of(tracks.begin(), tracks.end(), [&place](const ObjectTrack& track) {

@@ -1,17 +1,10 @@
 #pragma once
-#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "common/scene/object.h"
-#include "common/time/timestamp.h"
+#include "services/object_detector/core/grey_picture.h"
 
 namespace deixis::object_detector {
-
-/// A picture as detectors see it.
-struct GreyPicture {
-  Timestamp time;
-  cv::Mat grey;  ///< rows x cols, CV_8UC1.
-};
 
 /// Knows objects of one kind in a sequence of pictures.
 class Detector {

@@ -1,0 +1,87 @@
+#include "services/gesture_recogniser/gesture_recogniser_service.h"
+
+#include <gmock/gmock.h>
+
+#include "common/messages/camera_calibration.h"
+#include "common/messages/gesture.h"
+#include "common/messages/gesture_state.h"
+#include "common/messages/hands.h"
+#include "common/messages/objects.h"
+#include "test/services/gesture_recogniser/gesture_scene.h"
+#include "test/support/temporary_folder.h"
+
+namespace deixis::gesture_recogniser {
+namespace {
+
+transport::BusOptions Memory() {
+  transport::BusOptions options;
+  options.url = "memq://";
+  return options;
+}
+
+class GestureRecogniserServiceTest : public testing::Test {
+ protected:
+  GestureRecogniserServiceTest() {
+    std::filesystem::create_directories(folder_.path() / "gestures");
+    for (const GestureModel& model : TestModels()) {
+      folder_.Write("gestures/" + model.name + ".yaml", ToYaml(model));
+    }
+    setenv("DEIXIS_CONFIG_DIR", folder_.path().c_str(), 1);
+    bus_.Subscribe<scene::Gesture>(
+        "GESTURES", transport::Delivery::kEvery,
+        [this](const scene::Gesture& gesture) { gestures_.push_back(gesture); });
+    bus_.Subscribe<scene::GestureState>(
+        "GESTURE_STATE", transport::Delivery::kEvery,
+        [this](const scene::GestureState& state) { states_.push_back(state); });
+  }
+  void HandleAll() {
+    while (bus_.Handle(std::chrono::milliseconds(0)) > 0) {
+    }
+  }
+  test::TemporaryFolder folder_;
+  transport::Bus bus_{Memory()};
+  std::vector<scene::Gesture> gestures_;
+  std::vector<scene::GestureState> states_;
+};
+
+TEST_F(GestureRecogniserServiceTest, TurnsTracksAndObjectsIntoOneEvent) {
+  const GestureRecogniserService service({}, bus_, bus_);
+  const PointingScene scene;
+  int frames = 0;
+  for (double time_s = 0.0; time_s < 4.5; time_s += 1.0 / 15.0, ++frames) {
+    bus_.Publish("OBJECTS", scene.Objects(time_s));
+    bus_.Publish("HAND_TRACKS", HandAt(time_s, scene.Hand(time_s)));
+    HandleAll();
+  }
+  EXPECT_EQ(states_.size(), static_cast<std::size_t>(frames));
+  ASSERT_EQ(gestures_.size(), 2U);  // Its beginning and its end.
+  EXPECT_EQ(gestures_[0].object_id, 3);
+  EXPECT_EQ(gestures_[0].event_id, gestures_[1].event_id);
+  EXPECT_NE(gestures_[1].end.microseconds, 0);
+}
+
+TEST_F(GestureRecogniserServiceTest, StatesCarryTheTimeOfTheirHands) {
+  const GestureRecogniserService service({}, bus_, bus_);
+  bus_.Publish("HAND_TRACKS", HandAt(1.25, {100.0, 100.0}));
+  HandleAll();
+  ASSERT_EQ(states_.size(), 1U);
+  EXPECT_EQ(states_[0].time, At(1.25));
+  EXPECT_EQ(states_[0].camera, "test");
+}
+
+TEST_F(GestureRecogniserServiceTest, SaysThatNoObjectsAreKnown) {
+  const GestureRecogniserService service({}, bus_, bus_);
+  EXPECT_TRUE(service.health().is_degraded);
+  bus_.Publish("OBJECTS", PointingScene().Objects(0.0));
+  HandleAll();
+  EXPECT_FALSE(service.health().is_degraded);
+}
+
+TEST_F(GestureRecogniserServiceTest, RefusesAModelThatDoesNotExist) {
+  GestureRecogniserServiceConfig config;
+  config.models = {"no_such_gesture"};
+  EXPECT_THROW(GestureRecogniserService(config, bus_, bus_), config::ConfigError);
+}
+
+}  // namespace
+}  // namespace deixis::gesture_recogniser

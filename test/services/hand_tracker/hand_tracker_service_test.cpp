@@ -1,0 +1,89 @@
+#include "services/hand_tracker/hand_tracker_service.h"
+
+#include <gtest/gtest.h>
+
+#include "common/messages/hands.h"
+#include "common/messages/image.h"
+#include "common/messages/objects.h"
+#include "test/services/hand_tracker/core/synthetic_person.h"
+
+namespace deixis::hand_tracker {
+namespace {
+
+transport::BusOptions Memory() {
+  transport::BusOptions options;
+  options.url = "memq://";
+  return options;
+}
+
+class HandTrackerServiceTest : public testing::Test {
+ protected:
+  HandTrackerServiceTest() {
+    bus_.Subscribe<scene::Hands>("HAND_TRACKS", transport::Delivery::kEvery,
+                                 [this](const scene::Hands& hands) { answers_.push_back(hands); });
+  }
+  void HandleAll() {
+    while (bus_.Handle(std::chrono::milliseconds(0)) > 0) {
+    }
+  }
+  void Show(int frame) {
+    bus_.Publish("OBJECTS", person_.Faces(frame));
+    bus_.Publish("CAMERA", person_.Picture(frame));
+    HandleAll();
+  }
+
+  SyntheticPerson person_;
+  transport::Bus bus_{Memory()};
+  HandTrackerServiceConfig config_;
+  std::vector<scene::Hands> answers_;
+};
+
+TEST_F(HandTrackerServiceTest, AnswersEveryPictureAtItsTime) {
+  HandTrackerService service(config_, bus_, bus_);
+  for (int frame = 0; frame < 3; ++frame) Show(frame);
+  ASSERT_EQ(answers_.size(), 3U);
+  for (int frame = 0; frame < 3; ++frame) {
+    EXPECT_EQ(answers_[static_cast<std::size_t>(frame)].time, SyntheticPerson::Time(frame));
+    EXPECT_EQ(answers_[static_cast<std::size_t>(frame)].camera, "CAMERA");
+  }
+}
+
+TEST_F(HandTrackerServiceTest, TellsTheHandsOfAPersonWhoWaves) {
+  HandTrackerService service(config_, bus_, bus_);
+  for (int frame = 0; frame < 120; ++frame) Show(frame);
+  ASSERT_EQ(answers_.back().hands.size(), 2U);
+  for (const scene::Hand& hand : answers_.back().hands) EXPECT_EQ(hand.person_id, 7);
+}
+
+TEST_F(HandTrackerServiceTest, GoesOnAfterAMessageThatIsNoPicture) {
+  HandTrackerService service(config_, bus_, bus_);
+  const std::vector<std::uint8_t> junk(40, 0xAB);
+  bus_.PublishRaw("CAMERA", {junk.data(), junk.size()}, {1});
+  bus_.PublishRaw("OBJECTS", {junk.data(), junk.size()}, {1});
+  HandleAll();
+  EXPECT_TRUE(answers_.empty());
+  Show(0);
+  EXPECT_EQ(answers_.size(), 1U);
+}
+
+TEST_F(HandTrackerServiceTest, PublishesWhereTheConfigurationSays) {
+  config_.hands_channel = "ELSEWHERE";
+  HandTrackerService service(config_, bus_, bus_);
+  Show(0);
+  EXPECT_TRUE(answers_.empty());
+}
+
+TEST(HandTrackerServiceConfig, RefusesNonsenseAndNamesTheKey) {
+  HandTrackerServiceConfig config;
+  EXPECT_NO_THROW(config.Validate());
+  config.tracker.low_threshold = 300;
+  try {
+    config.Validate();
+    FAIL() << "was accepted";
+  } catch (const config::ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("low_threshold"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace deixis::hand_tracker
