@@ -6,15 +6,13 @@
 namespace deixis::hand_tracker {
 
 struct BackgroundModelConfig {
-  double recent_time_s = 0.6;  ///< Time constant of the running average that shows motion.
-  double still_time_s = 1.5;   ///< A pixel this long without motion near it becomes background.
-  double near_time_s =
-      3.0;  ///< The same though something moves nearby, if the pixel itself does not.
+  double recent_time_s = 0.6;   ///< Time constant of the running average that shows motion.
+  double still_time_s = 1.5;    ///< A pixel this long without motion near it becomes background.
+  double near_time_s = 3.0;     ///< The same though something moves nearby.
   double replace_time_s = 4.0;  ///< The same where another background was known.
   double follow_time_s = 8.0;   ///< Time constant with which a known background follows slow light.
-  double change_threshold = 7.0;  ///< Grey levels that tell motion from noise.
-  double foreground_threshold =
-      14.0;                   ///< Distance in grey levels that tells foreground from background.
+  double change_threshold = 7.0;       ///< Grey levels that tell motion from noise.
+  double foreground_threshold = 14.0;  ///< Grey levels that tell foreground from background.
   double moving_share = 0.5;  ///< Share of changed pixels from which the camera itself moves.
 
   template <typename Visitor>

@@ -18,13 +18,12 @@
 namespace deixis::hand_tracker {
 
 struct HandTrackerConfig {
-  int working_width_px = 320;  ///< Width at which images are searched.
-  int low_threshold = 150;     ///< Evidence (0..255) from which a pixel belongs to a region.
-  int high_threshold = 200;    ///< Evidence that a region must reach somewhere.
-  double thinnest = 0.1;       ///< Skin thinner than about this is smoothed away, hand lengths.
-  double largest_held_area =
-      2.5;                     ///< Of a region kept from becoming background, hand lengths squared.
-  double report_time_s = 0.5;  ///< Hands unseen for longer are no longer told.
+  int working_width_px = 320;      ///< Width at which images are searched.
+  int low_threshold = 150;         ///< Evidence (0..255) from which a pixel belongs to a region.
+  int high_threshold = 200;        ///< Evidence that a region must reach somewhere.
+  double thinnest = 0.1;           ///< Skin thinner than about this is smoothed away, hand lengths.
+  double largest_held_area = 2.5;  ///< Of an arm kept out of the background, hand lengths squared.
+  double report_time_s = 0.5;      ///< Hands unseen for longer are no longer told.
   double face_memory_s = 10.0;     ///< How long a face that is out of sight still counts.
   double learn_interval_s = 0.25;  ///< Time between two looks at what skin and scene look like.
   double longest_gap_s = 2.0;      ///< A longer gap between images starts everything anew.
