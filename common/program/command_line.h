@@ -9,7 +9,7 @@ namespace deixis::program {
 
 /// What a program is, for --help and for its status messages.
 struct Description {
-  std::string name;     ///< "hand_tracker"; the program is deixis-hand-tracker.
+  std::string name;     ///< "some_name"; the program is then deixis-some-name.
   std::string purpose;  ///< One sentence.
 };
 

@@ -39,7 +39,7 @@ struct Objects {
   Timestamp time;
   std::string camera;  ///< Image that boxes refer to.
   std::string frame;   ///< Frame of positions; empty when none is given.
-  std::string source;  ///< Detector: "object_detector".
+  std::string source;  ///< Which detector says so.
   std::vector<Object> objects;
 };
 

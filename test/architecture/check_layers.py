@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 TOP_LEVEL = {
-    "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md",
+    "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md",
     "lcmtypes", "common", "services", "config", "scripts", "test",
 }
 NOT_IN_THE_REPOSITORY = {"build", "logs", "output"}
