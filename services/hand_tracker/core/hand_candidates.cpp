@@ -96,6 +96,10 @@ std::vector<RegionEnd> FindEnds(const RegionGeodesics& region, int root, double 
   return ends;
 }
 
+bool IsFresh(const SkinPicture& picture, const Eigen::Vector2i& point) {
+  return !picture.fresh.empty() && picture.fresh.at<std::uint8_t>(point.y(), point.x()) != 0;
+}
+
 /// The hand at the end `tip`: pixels within a hand's length of it, weighed by their evidence.
 HandCandidate HandAt(const RegionGeodesics& region, int tip, const std::vector<int>& distances,
                      const SkinPicture& picture, double hand_length_px) {
@@ -113,11 +117,13 @@ HandCandidate HandAt(const RegionGeodesics& region, int tip, const std::vector<i
     mass += weight;
     hand.area_px += 1.0;
     if (picture.changed.at<std::uint8_t>(point.y(), point.x()) != 0) hand.moving_share += 1.0;
+    if (IsFresh(picture, point)) hand.fresh_share += 1.0;
     low = low.min(point.array());
     high = high.max(point.array());
   }
   hand.centre /= mass;
   hand.moving_share /= hand.area_px;
+  hand.fresh_share /= hand.area_px;
   const Eigen::Array2i size = high - low + 1;
   hand.box = {low.x() - 0.5, low.y() - 0.5, static_cast<double>(size.x()),
               static_cast<double>(size.y())};

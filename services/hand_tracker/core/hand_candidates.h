@@ -17,7 +17,9 @@ struct HandCandidate {
   double area_px = 0.0;                              ///< Of the hand.
   double hand_length_px = 0.0;                       ///< Of a hand at this distance, as assumed.
   double region_length_px = 0.0;                     ///< Along the region, from end to end.
-  double moving_share = 0.0;      ///< Of the hand's pixels that change right now.
+  double moving_share = 0.0;      ///< Of the hand's pixels that changed of late.
+  double fresh_share = 0.0;       ///< ... that changed since the last image: what a hand has
+                                  ///< uncovered keeps still, the hand does not.
   int shoulder = -1;              ///< Nearest one, index among those given; -1 = none was given.
   double root_distance_px = 0.0;  ///< Of the region's root from that shoulder.
   double shoulder_distance_px = 0.0;  ///< Of the centre from that shoulder.
@@ -26,10 +28,11 @@ struct HandCandidate {
   int region = -1;
 };
 
-/// What candidates are found in: two CV_8UC1 pictures of working size.
+/// What candidates are found in: pictures of working size.
 struct SkinPicture {
-  cv::Mat evidence;  ///< Of skin, 0..255.
-  cv::Mat changed;   ///< Not 0 where something moves right now.
+  cv::Mat evidence;  ///< CV_8UC1: of skin, 0..255.
+  cv::Mat changed;   ///< CV_8UC1: not 0 where something moved of late.
+  cv::Mat fresh;     ///< CV_8UC1: ... since the last image; may be left out.
 };
 
 /// The hands that a region may show. With short sleeves a region is a whole forearm; the hand is

@@ -58,6 +58,9 @@ void HandTrack::Predict(double elapsed_s) {
 void HandTrack::Measure(const HandCandidate& candidate, double elapsed_s) {
   hand_length_px_ = candidate.hand_length_px;
   latest_ = candidate;
+  constexpr double kFreshShare = 0.35;
+  still_s_ = candidate.fresh_share > kFreshShare ? 0.0 : still_s_ + elapsed_s;
+  ++n_measurements_;
   if (SquaredDistance(candidate.centre) > kJump) {
     Restart(candidate.centre);
   } else {
@@ -71,6 +74,7 @@ void HandTrack::Measure(const HandCandidate& candidate, double elapsed_s) {
 
 void HandTrack::Merge(const Eigen::Vector2d& centre, double sigma_px, double elapsed_s) {
   Correct(centre, sigma_px);
+  still_s_ += elapsed_s;
   state_ = scene::HandState::kMerged;
   unseen_s_ = 0.0;
   merged_s_ += elapsed_s;
@@ -80,10 +84,23 @@ void HandTrack::Merge(const Eigen::Vector2d& centre, double sigma_px, double ela
 
 void HandTrack::Miss(double elapsed_s) {
   unseen_s_ += elapsed_s;
+  still_s_ += elapsed_s;
   FollowLiveliness(0.0, elapsed_s);
   const bool is_hidden = unseen_s_ > config_.hide_time_s;
   state_ = is_hidden ? scene::HandState::kOccluded : scene::HandState::kPredicted;
   SlowDown(elapsed_s);
+}
+
+void HandTrack::ContinueAs(const HandTrack& newcomer) {
+  x_ = newcomer.x_;
+  y_ = newcomer.y_;
+  latest_ = newcomer.latest_;
+  hand_length_px_ = newcomer.hand_length_px_;
+  liveliness_ = newcomer.liveliness_;
+  state_ = newcomer.state_;
+  unseen_s_ = newcomer.unseen_s_;
+  merged_s_ = newcomer.merged_s_;
+  still_s_ = newcomer.still_s_;
 }
 
 /// A hand that went out of sight is looked for where it vanished, not where its speed would take

@@ -61,6 +61,10 @@ class HandTrack {
   double unseen_s() const { return unseen_s_; }
   double merged_s() const { return merged_s_; }
   double credit() const { return credit_; }
+  double still_s() const { return still_s_; }  ///< Time since its region last moved afresh.
+  /// Goes on with what `newcomer` knows: the hand went there faster than it could be followed.
+  void ContinueAs(const HandTrack& newcomer);
+  int n_measurements() const { return n_measurements_; }
   double liveliness() const { return liveliness_; }  ///< Recent mean of the moving share, 0..1.
 
   int id() const { return id_; }
@@ -85,6 +89,8 @@ class HandTrack {
   filtering::ConstantAccelerationFilter x_;
   filtering::ConstantAccelerationFilter y_;
   HandCandidate latest_;
+  double still_s_ = 0.0;
+  int n_measurements_ = 1;
   scene::HandState state_ = scene::HandState::kMeasured;
   bool is_confirmed_ = false;
   bool is_dismissed_ = false;

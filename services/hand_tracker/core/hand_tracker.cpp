@@ -54,6 +54,17 @@ scene::Hand ToHand(const HandTrack& track, const HandRole& role,
   return hand;
 }
 
+/// Where two pictures of one size differ by more than noise; nowhere when there is no earlier one.
+cv::Mat ChangeBetween(const cv::Mat& earlier, const cv::Mat& later) {
+  constexpr double kNoise = 10.0;  // Grey levels.
+  if (earlier.size() != later.size()) return cv::Mat::zeros(later.size(), CV_8UC1);
+  cv::Mat difference;
+  cv::absdiff(earlier, later, difference);
+  cv::cvtColor(difference, difference, cv::COLOR_BGR2GRAY);
+  cv::blur(difference, difference, {3, 3}, {-1, -1}, cv::BORDER_REPLICATE);
+  return difference > kNoise;
+}
+
 }  // namespace
 
 void HandTrackerConfig::Validate() const {
@@ -92,6 +103,8 @@ scene::Hands HandTracker::Track(const images::Image& image) {
   const double reach = 0.35 * TypicalHandLength(persons_, working_);
   HoldHands();
   background_.Update(working_.bgr, held_, elapsed_s, static_cast<int>(std::lround(reach)));
+  fresh_ = ChangeBetween(previous_, background_.normalised());
+  background_.normalised().copyTo(previous_);
   people_.NoteMotion([this](const scene::Box& box) { return MovesInside(box); }, elapsed_s);
   persons_ = people_.established();
   since_learning_s_ += elapsed_s;
@@ -124,6 +137,7 @@ double HandTracker::Advance(const images::Image& image) {
 }
 
 void HandTracker::Reset() {
+  previous_.release();
   background_.Reset();
   people_.Reset();
   tracks_.Reset();
@@ -191,7 +205,7 @@ Observation HandTracker::Observe(double elapsed_s) {
       persons_.empty() ? 0.0004 * static_cast<double>(evidence_.total()) : 0.06 * typical * typical;
   regions_ = FindRegions(evidence_, {config_.low_threshold, config_.high_threshold},
                          std::max(6, static_cast<int>(least)));
-  return {ObserveCandidates(regions_, {evidence_, background_.changed()}, persons_, working_.scale,
+  return {ObserveCandidates(regions_, {evidence_, background_.changed(), fresh_}, persons_, working_.scale,
                             typical),
           persons_, elapsed_s};
 }

@@ -90,6 +90,8 @@ class HandTracker {
   double since_learning_s_ = 0.0;
   std::vector<Person> persons_;  ///< Established at the last image.
   WorkingImage working_;
+  cv::Mat previous_;  // The last working image, light evened out.
+  cv::Mat fresh_;     // Where it differs from this one.
   cv::Mat evidence_;
   std::vector<SkinRegion> regions_;  ///< Of the evidence.
   cv::Mat held_;                     ///< CV_8UC1, working size: must not become background.

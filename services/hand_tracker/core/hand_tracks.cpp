@@ -69,6 +69,42 @@ HandTrack* Replaced(const std::vector<HandTrack*>& hands, const HandTrack& newco
   });
 }
 
+bool IsFreshNewcomer(const HandTrack& track) {
+  constexpr double kFreshShare = 0.5;
+  return !track.is_confirmed() && track.n_measurements() >= 2 &&
+         track.state() == scene::HandState::kMeasured && track.latest().fresh_share > kFreshShare &&
+         !track.latest().is_at_face && !track.latest().is_at_shoulder;
+}
+
+/// How dear it is to say that `newcomer` is where the hand of `track` went, hand lengths; infinite
+/// when it cannot be.
+double RejoinCost(const HandTrack& track, const HandTrack& newcomer) {
+  constexpr double kFastest = 22.0;  // Hand lengths/s: about 4 m/s.
+  constexpr double kLongest_s = 0.5;
+  constexpr double kOtherArmCost = 1.5;
+  const double gone_s = std::max(LostTime(track), track.still_s());
+  const bool is_gone = LostTime(track) > 0.0 || track.latest().is_at_face ||
+                       (track.still_s() > 0.0 && track.still_s() < kLongest_s);
+  const double distance = (track.centre() - newcomer.centre()).norm() / newcomer.hand_length_px();
+  if (!is_gone || distance > 1.0 + kFastest * std::min(gone_s, kLongest_s)) return kForbidden;
+  const bool is_same_arm = track.latest().shoulder == newcomer.latest().shoulder;
+  return distance + (is_same_arm ? 0.0 : kOtherArmCost);
+}
+
+/// The confirmed track whose hand `newcomer` most likely is; nullptr = none.
+HandTrack* LostBefore(std::vector<HandTrack>& tracks, const HandTrack& newcomer) {
+  HandTrack* best = nullptr;
+  double least = kForbidden;
+  for (HandTrack& track : tracks) {
+    const double cost = track.is_confirmed() ? RejoinCost(track, newcomer) : kForbidden;
+    if (cost < least) {
+      least = cost;
+      best = &track;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 void HandTracksConfig::Validate() const {
@@ -89,6 +125,7 @@ void HandTracks::Update(const Observation& observation) {
   const std::vector<int> candidate_of = Associate(observation);
   Follow(observation, candidate_of);
   Bear(observation, candidate_of);
+  Rejoin();
   Confirm(observation);
   RemoveTwins();
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(),
@@ -184,6 +221,18 @@ void HandTracks::Bear(const Observation& observation, const std::vector<int>& ca
   for (std::size_t i = 0; i < observation.candidates.size(); ++i) {
     if (is_taken[i] || !IsPlausibleBirth(observation, i)) continue;
     tracks_.emplace_back(next_id_++, config_.track, observation.candidates[i]);
+  }
+}
+
+/// A hand that moves too fast to be followed leaves its track on what it uncovered, on the face that it
+/// passed, or nowhere. Where something that moves appears within its reach right then, it is there.
+void HandTracks::Rejoin() {
+  for (std::size_t i = tracks_.size(); i-- > 0;) {
+    if (!IsFreshNewcomer(tracks_[i])) continue;
+    HandTrack* lost = LostBefore(tracks_, tracks_[i]);
+    if (lost == nullptr) continue;
+    lost->ContinueAs(tracks_[i]);
+    tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
 

@@ -47,6 +47,7 @@ class HandTracks {
   double Cost(const HandTrack& track, const HandCandidate& candidate, double elapsed_s) const;
   void Follow(const Observation& observation, const std::vector<int>& candidate_of);
   void FollowUnseen(const Observation& observation, HandTrack& track);
+  void Rejoin();
   void Confirm(const Observation& observation);
   std::vector<HandTrack*> HandsOf(const Observation& observation, const Person* person);
   void RemoveTwins();
