@@ -17,7 +17,7 @@ struct HandCandidate {
   double area_px = 0.0;                              ///< Of the hand.
   double hand_length_px = 0.0;                       ///< Of a hand at this distance, as assumed.
   double region_length_px = 0.0;                     ///< Along the region, from end to end.
-  double moving_share = 0.0;      ///< Of the hand's pixels that changed of late.
+  double moving_share = 0.0;                         ///< Of the hand's pixels that changed of late.
   double fresh_share = 0.0;       ///< ... that changed since the last image: what a hand has
                                   ///< uncovered keeps still, the hand does not.
   int shoulder = -1;              ///< Nearest one, index among those given; -1 = none was given.

@@ -205,8 +205,8 @@ Observation HandTracker::Observe(double elapsed_s) {
       persons_.empty() ? 0.0004 * static_cast<double>(evidence_.total()) : 0.06 * typical * typical;
   regions_ = FindRegions(evidence_, {config_.low_threshold, config_.high_threshold},
                          std::max(6, static_cast<int>(least)));
-  return {ObserveCandidates(regions_, {evidence_, background_.changed(), fresh_}, persons_, working_.scale,
-                            typical),
+  return {ObserveCandidates(regions_, {evidence_, background_.changed(), fresh_}, persons_,
+                            working_.scale, typical),
           persons_, elapsed_s};
 }
 

@@ -36,12 +36,13 @@ bool IsOnChest(const Person& person, const Eigen::Vector2d& point) {
 /// How long a track has done without a region of its own.
 double LostTime(const HandTrack& track) { return std::max(track.unseen_s(), track.merged_s()); }
 
-/// The one of `hands` that lies so near to the newcomer's shoulder that it is rather the elbow of its arm;
-/// nullptr = none.
+/// The one of `hands` that lies so near to the newcomer's shoulder that it is rather the elbow of
+/// its arm; nullptr = none.
 HandTrack* ElbowBefore(const std::vector<HandTrack*>& hands, const HandTrack& newcomer) {
   constexpr double kUpperArm = 1.5;  // From the shoulder, hand lengths.
   const double bar = kUpperArm * newcomer.hand_length_px();
-  if (newcomer.latest().shoulder < 0 || newcomer.latest().shoulder_distance_px < bar) return nullptr;
+  if (newcomer.latest().shoulder < 0 || newcomer.latest().shoulder_distance_px < bar)
+    return nullptr;
   const auto elbow = std::find_if(hands.begin(), hands.end(), [&](const HandTrack* hand) {
     return hand->latest().shoulder == newcomer.latest().shoulder &&
            hand->latest().shoulder_distance_px < bar;
@@ -139,9 +140,10 @@ double HandTracks::Cost(const HandTrack& track, const HandCandidate& candidate,
   constexpr double kShoulderCost = 9.0;
   constexpr double kStillCost = 20.0;
   constexpr double kLongest_s = 0.4;
+  constexpr double kStaleCost = 20.0;  // What a moving hand uncovers keeps still.
   const double distance = (candidate.centre - track.centre()).norm() / track.hand_length_px();
-  const bool may_have_come_far =
-      candidate.moving_share > config_.track.moving_share && !candidate.is_at_face;
+  const bool may_have_come_far = candidate.moving_share > config_.track.moving_share &&
+                                 candidate.fresh_share > 0.0 && !candidate.is_at_face;
   const double unseen_s =
       may_have_come_far ? std::min(LostTime(track) + elapsed_s, kLongest_s) : elapsed_s;
   if (distance > config_.gate + config_.gate_speed * unseen_s) return kForbidden;
@@ -154,6 +156,7 @@ double HandTracks::Cost(const HandTrack& track, const HandCandidate& candidate,
       std::log(std::max(1.0, candidate.area_px) / std::max(1.0, track.latest().area_px));
   return squared + kAreaCost * area_ratio * area_ratio +
          (candidate.is_at_shoulder ? kShoulderCost : 0.0) +
+         (track.still_s() > 0.0 ? 0.0 : kStaleCost * (1.0 - candidate.fresh_share)) +
          kStillCost * std::max(0.0, config_.track.moving_share - candidate.moving_share);
 }
 
@@ -224,8 +227,9 @@ void HandTracks::Bear(const Observation& observation, const std::vector<int>& ca
   }
 }
 
-/// A hand that moves too fast to be followed leaves its track on what it uncovered, on the face that it
-/// passed, or nowhere. Where something that moves appears within its reach right then, it is there.
+/// A hand that moves too fast to be followed leaves its track on what it uncovered, on the face
+/// that it passed, or nowhere. Where something that moves appears within its reach right then, it
+/// is there.
 void HandTracks::Rejoin() {
   for (std::size_t i = tracks_.size(); i-- > 0;) {
     if (!IsFreshNewcomer(tracks_[i])) continue;

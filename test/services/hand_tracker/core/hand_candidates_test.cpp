@@ -11,7 +11,8 @@ constexpr double kHandLength = 24.0;
 const std::vector<Eigen::Vector2d> kShoulders = {{80, 30}, {140, 30}};
 
 SkinPicture Picture() {
-  return {cv::Mat::zeros(240, 320, CV_8UC1), cv::Mat::zeros(240, 320, CV_8UC1)};
+  return {cv::Mat::zeros(240, 320, CV_8UC1), cv::Mat::zeros(240, 320, CV_8UC1),
+          cv::Mat::zeros(240, 320, CV_8UC1)};
 }
 
 std::vector<HandCandidate> Candidates(const SkinPicture& picture,
