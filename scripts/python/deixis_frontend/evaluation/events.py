@@ -89,13 +89,14 @@ def _read(log: Path) -> tuple[list[int], list[Any]]:
     """Capture times of all pictures, microseconds, and all gestures."""
     from deixis_lcm import logs
 
-    times, gestures = [], []
+    times: list[int] = []
+    gestures: dict[int, Any] = {}
     for _, channel, message in logs.read(log, channels={"GESTURE_STATE", "GESTURES"}):
         if channel == "GESTURES":
-            gestures.append(message)
+            gestures.setdefault(message.event_id, message)  # Told again when its end is known.
         else:
             times.append(message.utime)
-    return times, gestures
+    return times, list(gestures.values())
 
 
 def _seconds(times: list[int]) -> float:
