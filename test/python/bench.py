@@ -75,7 +75,8 @@ class Bench:
     def begin(self, command: str, *arguments: str) -> subprocess.Popen[str]:
         """Runs a command of the front end beside the test."""
         return subprocess.Popen(self.command(command, *arguments), env=self._environment,
-                                text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                                text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                preexec_fn=_heed_interrupts)
 
     def status(self) -> dict[str, Any]:
         """What `status --json` says."""
@@ -107,6 +108,11 @@ class Bench:
         program.write_text(f"#!/bin/sh\nexec {sys.executable} {_HERE / 'fake_service.py'} \"$@\"\n",
                            encoding="ascii")
         program.chmod(0o755)
+
+
+def _heed_interrupts() -> None:
+    """A run in the background ignores SIGINT, and hands that down."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def becomes_true(condition: Callable[[], bool], seconds: float = 10.0) -> bool:
