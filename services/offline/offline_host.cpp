@@ -61,7 +61,11 @@ std::set<std::string> OfflineHost::ReplacedChannels() const {
 void OfflineHost::Record(const transport::RawMessage& message) {
   const bool is_result = replaced_.count(message.channel) != 0;
   if (content_ == OutputContent::kResultsOnly && !is_result) return;
-  output_->PublishRaw(message.channel, message.bytes, {event_time_us_});
+  try {
+    output_->PublishRaw(message.channel, message.bytes, {event_time_us_});
+  } catch (const transport::BusError&) {
+    failure_ = std::current_exception();  // A handler lets nothing out: Run() throws it.
+  }
 }
 
 Summary OfflineHost::Run(LogReader& input, transport::Bus& output, OutputContent content,
@@ -84,6 +88,7 @@ Summary OfflineHost::Run(LogReader& input, transport::Bus& output, OutputContent
     bus_.PublishRaw(event.channel, event.bytes, {event_time_us_});
     while (bus_.Handle(kNoWait) > 0) {
     }
+    if (failure_) std::rethrow_exception(failure_);
   }
   output.Flush();
   summary.unreadable_bytes = input.unreadable_bytes();

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -55,6 +56,7 @@ class OfflineHost {
   transport::Bus* output_ = nullptr;
   OutputContent content_ = OutputContent::kEverything;
   std::int64_t event_time_us_ = 0;
+  std::exception_ptr failure_;  ///< Of writing the output.
 };
 
 }  // namespace deixis::offline

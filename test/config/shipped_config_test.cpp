@@ -21,7 +21,8 @@ TEST(ShippedConfig, CameraDriver) {
   EXPECT_NO_THROW(LoadShipped<camera_driver::CameraDriverServiceConfig>("camera_driver.yaml"));
 }
 TEST(ShippedConfig, ObjectDetector) {
-  EXPECT_NO_THROW(LoadShipped<object_detector::ObjectDetectorServiceConfig>("object_detector.yaml"));
+  EXPECT_NO_THROW(
+      LoadShipped<object_detector::ObjectDetectorServiceConfig>("object_detector.yaml"));
 }
 TEST(ShippedConfig, HandTracker) {
   EXPECT_NO_THROW(LoadShipped<hand_tracker::HandTrackerServiceConfig>("hand_tracker.yaml"));

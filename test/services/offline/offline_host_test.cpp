@@ -135,6 +135,17 @@ TEST_F(OfflineHostTest, UsesALogThatIsCutOffUpToItsLastWholeEvent) {
   EXPECT_EQ(summary.unreadable_bytes, static_cast<std::int64_t>(size) / 2 - 5);
 }
 
+TEST_F(OfflineHostTest, StopsAtOnceWhenTheOutputCannotBeWritten) {
+  std::vector<std::pair<std::string, std::int64_t>> events(3000, {"A", 10});
+  WriteInput(events);
+  LogReader input(Path("in.lcmlog"));
+  OfflineHost host("");
+  Bus log(Log("/dev/full"));
+  EXPECT_THROW(host.Run(input, log, OutputContent::kEverything, [](double) {}),
+               transport::BusError);
+  EXPECT_LT(input.progress(), 0.9);
+}
+
 TEST_F(OfflineHostTest, SaysThatALogIsMissing) {
   EXPECT_THROW(LogReader("/no/such/log"), transport::BusError);
   EXPECT_THROW(LogReader(folder_.path().string()), transport::BusError);
