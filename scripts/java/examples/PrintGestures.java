@@ -23,6 +23,7 @@ public class PrintGestures {
     private static void print(LCM bus, String channel, LCMDataInputStream data) {
         try {
             gesture_t gesture = new gesture_t(data);
+            if (gesture.end_utime != 0) return; // told again because it has ended
             System.out.println(gesture.name + ": " + outcome(gesture) + "; candidates: " + candidates(gesture));
         } catch (IOException error) {
             System.err.println(channel + ": not a gesture_t: " + error.getMessage());

@@ -13,6 +13,8 @@ from deixis import gesture_t
 
 def print_gesture(_, data):
     gesture = gesture_t.decode(data)
+    if gesture.end_utime != 0:
+        return  # told again because it has ended
     candidates = ", ".join(f"{c.label} (object {c.object_id}, {c.probability:.2f})" for c in gesture.candidates)
     outcome = {gesture_t.OBJECT: gesture.object_label, gesture_t.NO_OBJECT: "no known object",
                gesture_t.AMBIGUOUS: "one of several"}.get(gesture.outcome, "unknown outcome")
