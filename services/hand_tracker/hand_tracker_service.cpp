@@ -3,15 +3,16 @@
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
 #include "common/messages/objects.h"
+#include "common/transport/channel_name.h"
 
 namespace deixis::hand_tracker {
 
 void HandTrackerServiceConfig::Validate() const {
-  tracker.Validate();
   config::Faults faults;
-  faults.Require(!image_channel.empty(), "image_channel", "must be a channel's name");
-  faults.Require(!objects_channel.empty(), "objects_channel", "must be a channel's name");
-  faults.Require(!hands_channel.empty(), "hands_channel", "must be a channel's name");
+  const auto channel_faults = transport::ChannelFaults({{"image_channel", image_channel},
+                                                        {"objects_channel", objects_channel},
+                                                        {"hands_channel", hands_channel}});
+  for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
   faults.ThrowIfAny();
 }
 

@@ -173,7 +173,7 @@ bool GoesOnIn(const HandCandidate& piece, const HandCandidate& next, double hand
               const std::vector<Eigen::Vector2d>& shoulders) {
   constexpr double kLeastLength = 0.9;  // In hand lengths, like the gap.
   constexpr double kLargestGap = 0.8;
-  if (piece.region == next.region || piece.shoulder < 0 || next.shoulder != piece.shoulder ||
+  if (piece.region == next.region || piece.shoulder < 0 ||
       piece.region_length_px < kLeastLength * hand_length_px) {
     return false;
   }

@@ -25,7 +25,9 @@ struct HandCandidate {
   double shoulder_distance_px = 0.0;  ///< Of the centre from that shoulder.
   bool is_at_shoulder = false;        ///< So near to one that it may be the sleeve's end of an arm.
   bool is_at_face = false;            ///< Beside a face, where hair, ears and a neck show.
-  int region = -1;
+  bool is_by_motion_alone = false;    ///< No region's end, but what moves within one.
+  int region = -1;                    ///< Index; -1 = of none that is kept.
+  int person = -1;                    ///< Whose, index; -1 = nobody's.
 };
 
 /// What candidates are found in: pictures of working size.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace deixis::hand_tracker {
@@ -20,7 +21,6 @@ void HandRoles::Update(const std::vector<HandTrack>& tracks, const std::vector<P
                        double reach, double elapsed_s) {
   std::set<int> alive;
   for (const HandTrack& track : tracks) {
-    if (!track.is_confirmed()) continue;
     alive.insert(track.id());
     FollowTrack(track, NearestPerson(people, track.centre(), reach), elapsed_s);
   }
@@ -63,23 +63,26 @@ void HandRoles::SettleSides() {
 }
 
 void HandRoles::ChooseActing() {
-  std::set<int> people;
-  for (const auto& [id, role] : roles_) people.insert(role.person);
-  for (const int person : people) {
-    HandRole* liveliest = nullptr;
-    HandRole* acting = nullptr;
-    for (auto& [id, role] : roles_) {
-      if (role.person != person) continue;
-      if (role.is_acting) acting = &role;
-      if (liveliest == nullptr || role.speed > liveliest->speed) liveliest = &role;
-    }
-    const double bar = acting != nullptr && acting != liveliest
-                           ? std::max(config_.least_speed, config_.switch_ratio * acting->speed)
-                           : config_.least_speed;
-    if (liveliest->speed <= bar) continue;
-    if (acting != nullptr) acting->is_acting = false;
-    liveliest->is_acting = true;
+  std::map<int, std::vector<HandRole*>> hands_of;
+  for (auto& [id, role] : roles_) hands_of[role.person].push_back(&role);
+  for (const auto& [person, hands] : hands_of) {
+    const HandRole* chosen = Acting(hands);
+    for (HandRole* role : hands) role->is_acting = role == chosen;
   }
+}
+
+/// The one of a person's `hands` that acts; nullptr = none does, and none did.
+const HandRole* HandRoles::Acting(const std::vector<HandRole*>& hands) const {
+  const HandRole* liveliest = nullptr;
+  const HandRole* acting = nullptr;
+  for (const HandRole* role : hands) {
+    if (liveliest == nullptr || role->speed > liveliest->speed) liveliest = role;
+    if (role->is_acting && (acting == nullptr || role->speed > acting->speed)) acting = role;
+  }
+  const double bar = acting != nullptr && acting != liveliest
+                         ? std::max(config_.least_speed, config_.switch_ratio * acting->speed)
+                         : config_.least_speed;
+  return liveliest->speed > bar ? liveliest : acting;
 }
 
 HandRole HandRoles::RoleOf(int id) const {

@@ -52,6 +52,7 @@ class HandRoles {
   void FollowTrack(const HandTrack& track, const Person* person, double elapsed_s);
   void SettleSides();
   void ChooseActing();
+  const HandRole* Acting(const std::vector<HandRole*>& hands) const;
 
   HandRolesConfig config_;
   std::map<int, HandRole> roles_;  ///< By track id.

@@ -110,7 +110,8 @@ scene::Hands HandTracker::Track(const images::Image& image) {
   since_learning_s_ += elapsed_s;
   LearnColours();
   FindEvidence();
-  tracks_.Update(Observe(elapsed_s));
+  observation_ = Observe(elapsed_s);
+  tracks_.Update(observation_);
   roles_.Update(tracks_.tracks(), persons_, config_.tracks.reach, elapsed_s);
   return Report(image);
 }
@@ -141,6 +142,8 @@ void HandTracker::Reset() {
   background_.Reset();
   people_.Reset();
   tracks_.Reset();
+  observation_ = {};
+  unknown_hand_px_ = 1.0;
   regions_.clear();
   roles_.Reset();
   skin_ = skin::SkinModel(config_.skin);
@@ -153,7 +156,6 @@ void HandTracker::HoldHands() {
   held_ = cv::Mat::zeros(working_.bgr.size(), CV_8UC1);
   const bool fits = evidence_.size() == held_.size();
   for (const HandTrack& track : tracks_.tracks()) {
-    if (!track.is_confirmed() || !track.IsLively()) continue;
     const Eigen::Vector2d centre = ToWorking(track.centre(), working_.scale);
     const double hand_length = track.hand_length_px() / working_.scale;
     const double radius = std::min(0.6 * hand_length, static_cast<double>(held_.rows));
@@ -203,11 +205,30 @@ Observation HandTracker::Observe(double elapsed_s) {
   const double typical = TypicalHandLength(persons_, working_);
   const double least =
       persons_.empty() ? 0.0004 * static_cast<double>(evidence_.total()) : 0.06 * typical * typical;
-  regions_ = FindRegions(evidence_, {config_.low_threshold, config_.high_threshold},
-                         std::max(6, static_cast<int>(least)));
-  return {ObserveCandidates(regions_, {evidence_, background_.changed(), fresh_}, persons_,
-                            working_.scale, typical),
-          persons_, elapsed_s};
+  const HysteresisThresholds thresholds{config_.low_threshold, config_.high_threshold};
+  const int least_px = std::max(6, static_cast<int>(least));
+  const auto candidates_in = [&](const std::vector<SkinRegion>& regions, const cv::Mat& evidence) {
+    return ObserveCandidates(regions, {evidence, background_.changed(), fresh_}, persons_,
+                             working_.scale, unknown_hand_px_);
+  };
+  regions_ = FindRegions(evidence_, thresholds, least_px);
+  GuessUnknownHand(typical, elapsed_s);
+  Observation observation{candidates_in(regions_, evidence_), persons_, elapsed_s};
+  // A moving hand before something of its colour shows only by its motion.
+  cv::bitwise_and(evidence_, fresh_, moving_);
+  moving_ = Smooth(moving_, 3);
+  AddByMotion(candidates_in(FindRegions(moving_, thresholds, least_px), moving_),
+              observation.candidates);
+  return observation;
+}
+
+/// Of people whose face is not seen: the largest hand of late, as regions tell.
+void HandTracker::GuessUnknownHand(double longest_px, double elapsed_s) {
+  constexpr double kTime_s = 3.0;
+  unknown_hand_px_ *= std::exp(-elapsed_s / kTime_s);
+  for (const SkinRegion& region : regions_) {
+    unknown_hand_px_ = std::max(unknown_hand_px_, std::min(longest_px, GuessHandLength(region)));
+  }
 }
 
 scene::Hands HandTracker::Report(const images::Image& image) const {
@@ -215,7 +236,7 @@ scene::Hands HandTracker::Report(const images::Image& image) const {
   hands.time = image.time;
   hands.camera = image.camera;
   for (const HandTrack& track : tracks_.tracks()) {
-    if (!track.is_confirmed() || track.unseen_s() > config_.report_time_s) continue;
+    if (track.unseen_s() > config_.report_time_s) continue;
     hands.hands.push_back(ToHand(track, roles_.RoleOf(track.id()), persons_));
   }
   return hands;

@@ -63,8 +63,8 @@ class HandTracker {
   /// Hands in `image`. A time that goes backwards, a long gap or another size starts anew.
   scene::Hands Track(const images::Image& image);
 
-  /// What the last image looked like to the tracker (CV_8UC1, working size).
-  const cv::Mat& evidence() const { return evidence_; }
+  /// The candidates that the last image showed.
+  const Observation& observation() const { return observation_; }
 
  private:
   bool MovesInside(const scene::Box& box) const;
@@ -75,7 +75,7 @@ class HandTracker {
   cv::Mat SceneMask() const;
   void FindEvidence();
   Observation Observe(double elapsed_s);
-  void HoldRegions();
+  void GuessUnknownHand(double longest_px, double elapsed_s);
   scene::Hands Report(const images::Image& image) const;
 
   HandTrackerConfig config_;
@@ -89,11 +89,14 @@ class HandTracker {
   cv::Size size_;                  ///< Of the last image.
   double since_learning_s_ = 0.0;
   std::vector<Person> persons_;  ///< Established at the last image.
+  Observation observation_;
   WorkingImage working_;
   cv::Mat previous_;  // The last working image, light evened out.
   cv::Mat fresh_;     // Where it differs from this one.
   cv::Mat evidence_;
+  cv::Mat moving_;                   ///< Evidence where the picture just changed.
   std::vector<SkinRegion> regions_;  ///< Of the evidence.
+  double unknown_hand_px_ = 1.0;     ///< Length of a hand without a face, working pixels.
   cv::Mat held_;                     ///< CV_8UC1, working size: must not become background.
 };
 

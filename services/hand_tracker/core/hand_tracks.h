@@ -1,8 +1,10 @@
 #pragma once
-#include <Eigen/Core>
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "common/config/config.h"
+#include "services/hand_tracker/core/hand_paths.h"
 #include "services/hand_tracker/core/hand_track.h"
 #include "services/hand_tracker/core/observation.h"
 
@@ -10,51 +12,50 @@ namespace deixis::hand_tracker {
 
 struct HandTracksConfig {
   HandTrackConfig track;
-  double gate = 0.35;          ///< Farthest that a hand may be from its prediction, hand lengths
-  double gate_speed = 8.0;     ///< ... and how this grows with the time unseen, hand lengths/s.
-  double reach = 5.2;          ///< Of an arm, from the face, hand lengths.
-  double arm_length = 3.4;     ///< From the shoulder to where a hand begins, at most, hand lengths.
-  double least_area = 0.08;    ///< Of a hand, hand lengths squared.
-  double largest_area = 0.75;  ///< Of a hand, hand lengths squared.
-  double separation = 0.7;     ///< No hand is born closer to another than this, hand lengths.
+  HandPathsConfig paths;
+  double reach = 5.2;  ///< Of an arm, from the face, hand lengths.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
     v("track", track);
-    v("gate", gate);
-    v("gate_speed", gate_speed);
+    v("paths", paths);
     v("reach", reach);
-    v("arm_length", arm_length);
-    v("least_area", least_area);
-    v("largest_area", largest_area);
-    v("separation", separation);
   }
   void Validate() const;
 };
 
-/// The hands that are followed: association, birth, merging, occlusion, death.
+/// The hands that are followed: at most two of each person, or two of anybody while no face is
+/// known.
 class HandTracks {
  public:
   explicit HandTracks(const HandTracksConfig& config) : config_(config) {}
 
   void Update(const Observation& observation);
-  void Reset() { tracks_.clear(); }
+  void Reset();
 
   const std::vector<HandTrack>& tracks() const { return tracks_; }
 
  private:
-  std::vector<int> Associate(const Observation& observation) const;
-  double Cost(const HandTrack& track, const HandCandidate& candidate, double elapsed_s) const;
-  void Follow(const Observation& observation, const std::vector<int>& candidate_of);
-  void FollowUnseen(const Observation& observation, HandTrack& track);
-  void Rejoin();
-  void Confirm(const Observation& observation);
-  std::vector<HandTrack*> HandsOf(const Observation& observation, const Person* person);
-  void RemoveTwins();
-  void Bear(const Observation& observation, const std::vector<int>& candidate_of);
-  bool IsPlausibleBirth(const Observation& observation, std::size_t candidate) const;
+  /// The two hands of somebody.
+  struct Pair {
+    int person_key = kNobody;
+    HandPaths paths;
+    std::array<int, 2> track_ids{kNone, kNone};
+  };
+  static constexpr int kNobody = -1;
+  static constexpr int kNone = -1;
+
+  void FindPairs(const std::vector<Person>& people);
+  void Follow(const Observation& observation, const Person* person, Pair& pair);
+  void Follow(const Observation& observation, const std::array<HandGuess, 2>& hands,
+              std::size_t side, const std::vector<HandCandidate>& candidates, int& id);
+  void FollowUnseen(const Observation& observation, const HandGuess& guess, HandTrack& track);
+  void ChangeSides(Pair& pair);
+  HandTrack* Find(int id);
+  void Forget(int& id);
 
   HandTracksConfig config_;
+  std::vector<Pair> pairs_;
   std::vector<HandTrack> tracks_;
   int next_id_ = 1;
 };

@@ -1,6 +1,7 @@
 #include "services/hand_tracker/core/observation.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "services/hand_tracker/core/working_image.h"
@@ -8,6 +9,7 @@
 namespace deixis::hand_tracker {
 namespace {
 
+constexpr double kSmallest = 0.6;   // Hand among those of a picture, of the largest.
 constexpr double kFaceReach = 1.1;  // From the face's centre, hand lengths: hair, ears, neck.
 
 Eigen::Vector2d RegionCentre(const SkinRegion& region, double scale) {
@@ -39,6 +41,22 @@ void Append(const std::vector<HandCandidate>& hands, std::size_t region, double 
   }
 }
 
+/// Where no shoulder is known: an arm comes in over the picture's edge, and its other end is the
+/// hand.
+std::vector<HandCandidate> WithoutArmEnds(const std::vector<HandCandidate>& ends,
+                                          const SkinPicture& picture) {
+  const auto is_at_edge = [&picture](const HandCandidate& hand) {
+    const double right = hand.box.x_px + hand.box.width_px;
+    const double bottom = hand.box.y_px + hand.box.height_px;
+    return hand.box.x_px < 1.0 || hand.box.y_px < 1.0 || right > picture.evidence.cols - 2.0 ||
+           bottom > picture.evidence.rows - 2.0;
+  };
+  std::vector<HandCandidate> hands;
+  std::copy_if(ends.begin(), ends.end(), std::back_inserter(hands),
+               [&](const HandCandidate& hand) { return !is_at_edge(hand); });
+  return hands.empty() ? ends : hands;
+}
+
 /// Candidates in the regions that are nearest to `person`, working pixels.
 std::vector<HandCandidate> CandidatesOf(const Person& person,
                                         const std::vector<SkinRegion>& regions,
@@ -66,23 +84,41 @@ std::vector<HandCandidate> CandidatesOf(const Person& person,
 std::vector<HandCandidate> ObserveCandidates(const std::vector<SkinRegion>& regions,
                                              const SkinPicture& picture,
                                              const std::vector<Person>& people, double scale,
-                                             double longest_hand_px) {
+                                             double unknown_hand_px) {
   std::vector<const Person*> owners;
   for (const SkinRegion& region : regions) {
     owners.push_back(NearestPerson(people, RegionCentre(region, scale), kRegionReach));
   }
   std::vector<HandCandidate> candidates;
   for (const Person& person : people) {
-    const auto hands = CandidatesOf(person, regions, owners, picture, scale);
-    candidates.insert(candidates.end(), hands.begin(), hands.end());
+    for (HandCandidate hand : CandidatesOf(person, regions, owners, picture, scale)) {
+      hand.person = static_cast<int>(&person - people.data());
+      candidates.push_back(hand);
+    }
   }
   for (std::size_t i = 0; i < regions.size(); ++i) {
     if (owners[i] != nullptr) continue;
-    const double hand_length = std::min(longest_hand_px, GuessHandLength(regions[i]));
-    Append(FindCandidates(regions[i], picture, hand_length, {}), i, hand_length, candidates);
+    const double hand_length =
+        std::clamp(GuessHandLength(regions[i]), kSmallest * unknown_hand_px, unknown_hand_px);
+    Append(WithoutArmEnds(FindCandidates(regions[i], picture, hand_length, {}), picture), i,
+           hand_length, candidates);
   }
   for (HandCandidate& candidate : candidates) candidate = InFullPixels(candidate, scale);
   return candidates;
+}
+
+void AddByMotion(const std::vector<HandCandidate>& moving, std::vector<HandCandidate>& candidates) {
+  constexpr double kSamePlace = 0.4;  // Hand lengths.
+  for (const HandCandidate& candidate : moving) {
+    const bool is_known =
+        std::any_of(candidates.begin(), candidates.end(), [&](const HandCandidate& known) {
+          return (known.centre - candidate.centre).norm() < kSamePlace * candidate.hand_length_px;
+        });
+    if (is_known) continue;
+    candidates.push_back(candidate);
+    candidates.back().region = -1;
+    candidates.back().is_by_motion_alone = true;
+  }
 }
 
 const Person* NearestPerson(const std::vector<Person>& people, const Eigen::Vector2d& point,

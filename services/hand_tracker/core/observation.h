@@ -18,11 +18,15 @@ struct Observation {
 inline constexpr double kRegionReach = 10.0;
 
 /// The candidates in `regions` (working pixels, `scale` full pixels each), person by person, those
-/// without a person last. `longest_hand_px`: of a hand whose person is unknown, working pixels.
+/// without a person last. `unknown_hand_px`: length of a hand whose person is unknown, working
+/// pixels.
 std::vector<HandCandidate> ObserveCandidates(const std::vector<SkinRegion>& regions,
                                              const SkinPicture& picture,
                                              const std::vector<Person>& people, double scale,
-                                             double longest_hand_px);
+                                             double unknown_hand_px);
+
+/// Appends those of `moving`, found by motion alone, that lie where none of `candidates` does.
+void AddByMotion(const std::vector<HandCandidate>& moving, std::vector<HandCandidate>& candidates);
 
 /// The person whose face is nearest to `point`, within `reach` hand lengths of it; nullptr =
 /// nobody.

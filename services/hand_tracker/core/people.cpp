@@ -72,7 +72,7 @@ void People::Update(const scene::Object& face, Timestamp time) {
   constexpr double kFollowSize = 0.15;  // ... and of its size, which detectors know less well.
   Person* person = Find(face, time);
   if (person == nullptr) {
-    people_.push_back({face.person_id, face.id, *face.box, time, 1, 0, 0.0});
+    people_.push_back({next_key_++, face.person_id, face.id, *face.box, time, 1, 0, 0.0});
     return;
   }
   const Eigen::Vector2d centre = scene::Centre(Blend(person->face, *face.box, kFollow));

@@ -12,6 +12,7 @@ namespace deixis::hand_tracker {
 
 /// Somebody whose face was seen: the measure of everything else. Full image pixels.
 struct Person {
+  int key = -1;        ///< Stays the same for as long as the person is remembered.
   int person_id = -1;  ///< As given with the face; -1 = none was given.
   int face_id = -1;    ///< The face object's id.
   scene::Box face;     ///< Smoothed.
@@ -59,6 +60,7 @@ class People {
 
   double memory_s_;
   std::vector<Person> people_;
+  int next_key_ = 0;
 };
 
 }  // namespace deixis::hand_tracker

@@ -6,15 +6,10 @@
 #include "common/messages/image.h"
 #include "common/messages/objects.h"
 #include "test/services/hand_tracker/core/synthetic_person.h"
+#include "test/support/memory_bus.h"
 
 namespace deixis::hand_tracker {
 namespace {
-
-transport::BusOptions Memory() {
-  transport::BusOptions options;
-  options.url = "memq://";
-  return options;
-}
 
 class HandTrackerServiceTest : public testing::Test {
  protected:
@@ -22,18 +17,14 @@ class HandTrackerServiceTest : public testing::Test {
     bus_.Subscribe<scene::Hands>("HAND_TRACKS", transport::Delivery::kEvery,
                                  [this](const scene::Hands& hands) { answers_.push_back(hands); });
   }
-  void HandleAll() {
-    while (bus_.Handle(std::chrono::milliseconds(0)) > 0) {
-    }
-  }
   void Show(int frame) {
     bus_.Publish("OBJECTS", person_.Faces(frame));
     bus_.Publish("CAMERA", person_.Picture(frame));
-    HandleAll();
+    test::HandleAll(bus_);
   }
 
   SyntheticPerson person_;
-  transport::Bus bus_{Memory()};
+  transport::Bus bus_{test::Memory()};
   HandTrackerServiceConfig config_;
   std::vector<scene::Hands> answers_;
 };
@@ -60,7 +51,7 @@ TEST_F(HandTrackerServiceTest, GoesOnAfterAMessageThatIsNoPicture) {
   const std::vector<std::uint8_t> junk(40, 0xAB);
   bus_.PublishRaw("CAMERA", {junk.data(), junk.size()}, {1});
   bus_.PublishRaw("OBJECTS", {junk.data(), junk.size()}, {1});
-  HandleAll();
+  test::HandleAll(bus_);
   EXPECT_TRUE(answers_.empty());
   Show(0);
   EXPECT_EQ(answers_.size(), 1U);
@@ -68,17 +59,28 @@ TEST_F(HandTrackerServiceTest, GoesOnAfterAMessageThatIsNoPicture) {
 
 TEST_F(HandTrackerServiceTest, PublishesWhereTheConfigurationSays) {
   config_.hands_channel = "ELSEWHERE";
+  int elsewhere = 0;
+  bus_.Subscribe<scene::Hands>("ELSEWHERE", transport::Delivery::kEvery,
+                               [&elsewhere](const scene::Hands&) { ++elsewhere; });
   HandTrackerService service(config_, bus_, bus_);
   Show(0);
+  EXPECT_EQ(elsewhere, 1);
   EXPECT_TRUE(answers_.empty());
+}
+
+TEST(HandTrackerServiceConfig, RefusesToPublishOnAnInput) {
+  HandTrackerServiceConfig config;
+  EXPECT_NO_THROW(config.Validate());
+  config.hands_channel = config.image_channel;
+  EXPECT_THROW(config.Validate(), config::ConfigError);
 }
 
 TEST(HandTrackerServiceConfig, RefusesNonsenseAndNamesTheKey) {
   HandTrackerServiceConfig config;
-  EXPECT_NO_THROW(config.Validate());
+  EXPECT_NO_THROW(config.tracker.Validate());
   config.tracker.low_threshold = 300;
   try {
-    config.Validate();
+    config.tracker.Validate();
     FAIL() << "was accepted";
   } catch (const config::ConfigError& error) {
     EXPECT_NE(std::string(error.what()).find("low_threshold"), std::string::npos);

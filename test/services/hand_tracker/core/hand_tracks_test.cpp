@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <utility>
 
 namespace deixis::hand_tracker {
@@ -10,94 +11,117 @@ namespace {
 constexpr double kElapsed_s = 1.0 / 15.0;
 constexpr double kHandLength_px = 40.0;
 
-enum class Motion { kMoves, kKeepsStill };
+enum class Motion { kMoves, kSways };
 
-// A region as large as a hand whose pixels changed of late; `motion` says whether they still do.
-HandCandidate At(double x_px, double y_px, Motion motion) {
+// A region as large as a hand; of nobody unless `person` says whose.
+HandCandidate At(double x_px, double y_px, Motion motion = Motion::kSways, int person = -1) {
   HandCandidate candidate;
-  candidate.centre = {x_px, y_px};
-  candidate.tip = candidate.root = candidate.centre;
+  candidate.centre = candidate.tip = candidate.root = {x_px, y_px};
   candidate.box = {x_px - 10.0, y_px - 15.0, 20.0, 30.0};
   candidate.hand_length_px = kHandLength_px;
   candidate.area_px = 0.3 * kHandLength_px * kHandLength_px;
   candidate.region_length_px = kHandLength_px;
   candidate.moving_share = 1.0;
   candidate.fresh_share = motion == Motion::kMoves ? 1.0 : 0.0;
+  candidate.person = person;
+  candidate.shoulder = person >= 0 ? 0 : -1;
+  candidate.root_distance_px = candidate.shoulder_distance_px = 2.0 * kHandLength_px;
   return candidate;
+}
+
+Person PersonAt(int key, double x_px) {
+  Person person;
+  person.key = key;
+  person.face = {x_px - 20.0, 80.0, kHandLength_px, kHandLength_px};
+  return person;
 }
 
 class HandTracksTest : public testing::Test {
  protected:
-  void See(std::vector<HandCandidate> candidates) {
-    tracks_.Update({std::move(candidates), {}, kElapsed_s});
+  void See(std::vector<HandCandidate> candidates, std::vector<Person> people = {}) {
+    tracks_.Update({std::move(candidates), std::move(people), kElapsed_s});
   }
-  // A hand that sways at (100, 200) until it counts as one.
-  void ConfirmOne() {
-    for (int i = 0; i < 15; ++i) See({At(100.0 + i % 2, 200.0, Motion::kMoves)});
+  void SeeForASecond(const std::vector<HandCandidate>& candidates,
+                     const std::vector<Person>& people = {}) {
+    for (int i = 0; i < 15; ++i) See(candidates, people);
   }
-  // The only confirmed track.
   const HandTrack& TheHand() const {
-    const HandTrack* hand = nullptr;
-    for (const HandTrack& track : tracks_.tracks()) {
-      if (!track.is_confirmed()) continue;
-      EXPECT_EQ(hand, nullptr) << "more than one hand";
-      hand = &track;
-    }
-    if (hand == nullptr) throw std::logic_error("no hand");
-    return *hand;
+    if (tracks_.tracks().size() != 1) throw std::logic_error("not one hand");
+    return tracks_.tracks().front();
   }
   HandTracks tracks_{HandTracksConfig{}};
 };
 
-TEST_F(HandTracksTest, FollowsTheHandRatherThanWhatItUncovered) {
-  ConfirmOne();
-  See({At(110.0, 195.0, Motion::kMoves)});
-  See({At(104.0, 200.0, Motion::kKeepsStill), At(128.0, 185.0, Motion::kMoves)});
-  EXPECT_NEAR(TheHand().centre().x(), 128.0, 4.0);
-}
-
-TEST_F(HandTracksTest, FindsAHandAgainThatOutranItsTrack) {
-  ConfirmOne();
+TEST_F(HandTracksTest, FollowsAHandUnderItsId) {
+  SeeForASecond({At(100.0, 200.0)});
   const int id = TheHand().id();
-  // Its place is uncovered and keeps still while something moves farther than a track can follow.
-  See({At(100.0, 200.0, Motion::kKeepsStill), At(175.0, 140.0, Motion::kMoves)});
-  See({At(100.0, 200.0, Motion::kKeepsStill), At(190.0, 130.0, Motion::kMoves)});
+  for (int i = 1; i <= 5; ++i) See({At(100.0 + 15.0 * i, 200.0, Motion::kMoves)});
   EXPECT_EQ(TheHand().id(), id);
-  EXPECT_NEAR(TheHand().centre().x(), 190.0, 6.0);
+  EXPECT_NEAR(TheHand().centre().x(), 175.0, 6.0);
+  EXPECT_EQ(TheHand().state(), scene::HandState::kMeasured);
 }
 
-TEST_F(HandTracksTest, FindsALostHandAgainUnderItsId) {
-  ConfirmOne();
-  const int id = TheHand().id();
+TEST_F(HandTracksTest, SaysThatAHandIsNotSeen) {
+  SeeForASecond({At(100.0, 200.0)});
   See({});
-  See({At(160.0, 150.0, Motion::kMoves)});
-  See({At(170.0, 145.0, Motion::kMoves)});
-  EXPECT_EQ(TheHand().id(), id);
-  EXPECT_NEAR(TheHand().centre().x(), 170.0, 6.0);
+  EXPECT_EQ(TheHand().state(), scene::HandState::kPredicted);
+  for (int i = 0; i < 6; ++i) See({});
+  EXPECT_EQ(TheHand().state(), scene::HandState::kOccluded);
+  EXPECT_NEAR(TheHand().unseen_s(), 7.0 * kElapsed_s, 1e-9);
 }
 
-TEST_F(HandTracksTest, OnlyWhatMovesIsTakenForALostHandFarAway) {
-  for (const Motion motion : {Motion::kMoves, Motion::kKeepsStill}) {
-    tracks_.Reset();
-    ConfirmOne();
-    See({});
-    See({});
-    See({At(250.0, 120.0, motion)});
-    See({At(255.0, 118.0, motion)});
-    const bool is_taken = TheHand().centre().x() > 200.0;
-    EXPECT_EQ(is_taken, motion == Motion::kMoves);
-  }
+TEST_F(HandTracksTest, TellsOfAHandNoMoreThatWasUnseenForLong) {
+  SeeForASecond({At(100.0, 200.0)});
+  for (int i = 0; i < 40; ++i) See({});
+  EXPECT_TRUE(tracks_.tracks().empty());
 }
 
-TEST_F(HandTracksTest, ARestingHandStaysWhenAnotherMovesFarFromIt) {
-  ConfirmOne();
-  for (int i = 0; i < 12; ++i) See({At(100.0, 200.0, Motion::kKeepsStill)});
+TEST_F(HandTracksTest, NeverFollowsMoreThanTwoHandsOfOnePerson) {
+  const std::vector<Person> people{PersonAt(3, 200.0)};
+  SeeForASecond({At(150.0, 230.0, Motion::kSways, 0), At(250.0, 230.0, Motion::kSways, 0),
+                 At(200.0, 280.0, Motion::kSways, 0)},
+                people);
+  EXPECT_EQ(tracks_.tracks().size(), 2U);
+}
+
+TEST_F(HandTracksTest, FollowsTheHandsOfEveryPerson) {
+  const std::vector<Person> people{PersonAt(3, 100.0), PersonAt(4, 400.0)};
+  SeeForASecond({At(60.0, 230.0, Motion::kSways, 0), At(140.0, 230.0, Motion::kSways, 0),
+                 At(360.0, 230.0, Motion::kSways, 1), At(440.0, 230.0, Motion::kSways, 1)},
+                people);
+  EXPECT_EQ(tracks_.tracks().size(), 4U);
+}
+
+TEST_F(HandTracksTest, KeepsAHandWhenItsFaceIsFoundAndLost) {
+  SeeForASecond({At(160.0, 230.0)});
   const int id = TheHand().id();
-  for (int i = 0; i < 2; ++i) {
-    See({At(100.0, 200.0, Motion::kKeepsStill), At(200.0 + 10.0 * i, 100.0, Motion::kMoves)});
-  }
+  SeeForASecond({At(160.0, 230.0, Motion::kSways, 0)}, {PersonAt(1, 200.0)});
   EXPECT_EQ(TheHand().id(), id);
-  EXPECT_NEAR(TheHand().centre().x(), 100.0, 3.0);
+  SeeForASecond({At(160.0, 230.0)});
+  EXPECT_EQ(TheHand().id(), id);
+}
+
+TEST_F(HandTracksTest, ForgetsTheHandsOfWhoHasGone) {
+  const std::vector<Person> both{PersonAt(3, 100.0), PersonAt(4, 400.0)};
+  SeeForASecond({At(60.0, 230.0, Motion::kSways, 0), At(440.0, 230.0, Motion::kSways, 1)}, both);
+  ASSERT_EQ(tracks_.tracks().size(), 2U);
+  See({At(60.0, 230.0, Motion::kSways, 0)}, {PersonAt(3, 100.0)});
+  EXPECT_NEAR(TheHand().centre().x(), 60.0, 3.0);
+}
+
+TEST_F(HandTracksTest, KnowsAHandInALumpWithTheOtherLessWell) {
+  const std::vector<Person> people{PersonAt(3, 200.0)};
+  SeeForASecond({At(150.0, 250.0, Motion::kSways, 0), At(250.0, 250.0, Motion::kSways, 0)}, people);
+  ASSERT_EQ(tracks_.tracks().size(), 2U);
+  const double alone = tracks_.tracks().front().Covariance()(0, 0);
+  for (int i = 1; i <= 9; ++i) {
+    See({At(150.0 + 5.0 * i, 250.0, Motion::kMoves, 0),
+         At(250.0 - 5.0 * i, 250.0, Motion::kMoves, 0)},
+        people);
+  }
+  for (int i = 0; i < 10; ++i) See({At(200.0, 250.0, Motion::kSways, 0)}, people);
+  ASSERT_EQ(tracks_.tracks().size(), 2U);
+  EXPECT_GT(tracks_.tracks().front().Covariance()(0, 0), 1.5 * alone);
 }
 
 }  // namespace
