@@ -1,85 +1,61 @@
 #include "common/config/config.h"
 
-#include <yaml-cpp/yaml.h>
-
-#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <set>
+
+#include "common/config/yaml_document.h"
 
 namespace deixis::config {
 namespace fs = std::filesystem;
 
 namespace {
 
-std::string Place(const std::string& file, const YAML::Mark& mark) {
-  return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
-}
-
-void RejectDuplicates(const YAML::Node& node, const std::string& file, const std::string& path) {
-  if (node.IsSequence()) {
-    for (const auto& element : node) RejectDuplicates(element, file, path);
-  }
-  if (!node.IsMap()) return;
-  std::set<std::string> seen;
-  for (const auto& entry : node) {
-    const auto key = entry.first.as<std::string>();
-    if (!seen.insert(key).second) {
-      throw ConfigError(Place(file, entry.first.Mark()) + ": key '" + path + key +
-                        "' is given twice; remove one of them");
-    }
-    RejectDuplicates(entry.second, file, path + key + ".");
-  }
-}
-
-void Override(YAML::Node root, const std::string& assignment) {
-  const auto equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw ConfigError("override '" + assignment + "' is not of the form key=value");
-  }
-  YAML::Node node;
-  node.reset(root);
-  std::string rest = assignment.substr(0, equals);
-  for (auto dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
-    YAML::Node next = node[rest.substr(0, dot)];
-    node.reset(next);
-    rest = rest.substr(dot + 1);
-  }
-  node[rest] = YAML::Load(assignment.substr(equals + 1));
-}
-
 fs::path ProgramFolder() {
   std::error_code ignored;
   return fs::read_symlink("/proc/self/exe", ignored).parent_path();
 }
 
+std::string TextOf(const std::vector<Fault>& faults) {
+  std::string all;
+  for (const Fault& fault : faults) {
+    all += (all.empty() ? "'" : "; '") + fault.key + "' " + fault.text;
+  }
+  return all;
+}
+
 }  // namespace
 
+FaultsFound::FaultsFound(std::vector<Fault> faults)
+    : ConfigError(TextOf(faults)), faults_(std::move(faults)) {}
+
 void Faults::Require(bool holds, const std::string& key, const std::string& fault) {
-  if (!holds) faults_.push_back("'" + key + "' " + fault);
+  if (!holds) faults_.push_back({key, fault});
 }
 
 void Faults::ThrowIfAny() const {
-  if (faults_.empty()) return;
-  std::string all;
-  for (const std::string& fault : faults_) all += (all.empty() ? "" : "; ") + fault;
-  throw ConfigError(all);
+  if (!faults_.empty()) throw FaultsFound(faults_);
 }
 
 struct Reader::State {
+  const YamlDocument* document = nullptr;
   YAML::Node node;
-  std::string file;
   std::string key;  ///< Full name, "tracker.rate_hz"; empty at the top.
   Completeness completeness = Completeness::kDefaultsAllowed;
   std::set<std::string> visited;
+  std::unique_ptr<YamlDocument> own_document;  ///< Of the reader at the top.
 
   std::unique_ptr<State> Child(const YAML::Node& child, const std::string& child_key) const {
     auto state = std::make_unique<State>();
+    state->document = document;
     state->node = child;
-    state->file = file;
     state->key = child_key;
     state->completeness = completeness;
     return state;
+  }
+  std::string FullName(const std::string& name) const {
+    return key.empty() ? name : key + "." + name;
   }
 };
 
@@ -88,8 +64,29 @@ Reader::Reader(Reader&&) noexcept = default;
 Reader::~Reader() = default;
 
 void Reader::Fail(const std::string& fault) const {
-  throw ConfigError(Place(state_->file, state_->node.Mark()) + ": key '" + state_->key + "' " +
-                    fault);
+  const YamlDocument& document = *state_->document;
+  const std::string place = document.PlaceOf(state_->key, state_->node.Mark());
+  const std::string why = document.OverrideFault(state_->key);
+  if (!why.empty()) throw ConfigError(place + ": the value is not valid YAML: " + why);
+  throw ConfigError(place + ": key '" + state_->key + "' " + fault);
+}
+
+void Reader::Judge(const std::function<void()>& validate) const {
+  try {
+    validate();
+  } catch (const FaultsFound& found) {
+    std::string all;
+    for (const Fault& fault : found.faults()) {
+      const std::string key = state_->FullName(fault.key);
+      all += (all.empty() ? "" : "; ") +
+             state_->document->PlaceOf(key, MarkOf(state_->node, fault.key)) + ": key '" + key +
+             "' " + fault.text;
+    }
+    throw ConfigError(all);
+  } catch (const ConfigError& error) {
+    throw ConfigError(state_->document->PlaceOf(state_->key, YAML::Mark::null_mark()) + ": " +
+                      error.what());
+  }
 }
 
 void Reader::RequireMapping() {
@@ -99,10 +96,11 @@ void Reader::RequireMapping() {
 std::unique_ptr<Reader> Reader::Child(const char* name) {
   state_->visited.insert(name);
   const YAML::Node child = state_->node.IsMap() ? state_->node[name] : YAML::Node();
-  const std::string key = state_->key.empty() ? name : state_->key + "." + name;
+  const std::string key = state_->FullName(name);
   if (!child.IsDefined() || (child.IsNull() && !state_->node.IsMap())) {
     if (state_->completeness == Completeness::kEveryKey) {
-      throw ConfigError(state_->file + ": key '" + key + "' is missing; state it");
+      throw ConfigError(state_->document->PlaceOf(key, YAML::Mark::null_mark()) + ": key '" + key +
+                        "' is missing; state it");
     }
     return nullptr;
   }
@@ -127,8 +125,8 @@ void Reader::RejectUnknownKeys() {
     if (state_->visited.count(key) != 0) continue;
     std::string known;
     for (const std::string& name : state_->visited) known += (known.empty() ? "" : ", ") + name;
-    throw ConfigError(Place(state_->file, entry.first.Mark()) + ": key '" +
-                      (state_->key.empty() ? key : state_->key + "." + key) +
+    const std::string full = state_->FullName(key);
+    throw ConfigError(state_->document->PlaceOf(full, entry.first.Mark()) + ": key '" + full +
                       "' is not known; known are: " + known);
   }
 }
@@ -165,7 +163,9 @@ void Reader::ReadScalar(double& field) {
   if (!(std::abs(field) <= std::numeric_limits<double>::max())) Fail("must be a finite number");
 }
 void Reader::ReadScalar(std::string& field) {
-  if (state_->node.IsNull()) {
+  if (const std::string* text = state_->document->OverridingText(state_->key)) {
+    field = *text;
+  } else if (state_->node.IsNull()) {
     field.clear();
   } else if (!Convert(state_->node, field)) {
     Fail("must be a text");
@@ -175,24 +175,15 @@ void Reader::ReadScalar(std::string& field) {
 Reader OpenFile(const fs::path& path, const std::vector<std::string>& overrides,
                 Completeness completeness) {
   auto state = std::make_unique<Reader::State>();
-  state->file = path.string();
+  state->own_document = std::make_unique<YamlDocument>(path, overrides);
+  state->document = state->own_document.get();
+  state->node.reset(state->document->root());
   state->completeness = completeness;
-  try {
-    state->node = YAML::LoadFile(path.string());
-    RejectDuplicates(state->node, state->file, "");
-    for (const std::string& assignment : overrides) Override(state->node, assignment);
-  } catch (const YAML::BadFile&) {
-    throw ConfigError(path.string() + ": cannot be read; give an existing YAML file");
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(Place(path.string(), error.mark) + ": is not valid YAML: " + error.msg);
-  }
-  if (!state->node.IsMap() && !state->node.IsNull()) {
-    throw ConfigError(path.string() + ": must be a mapping of keys to values");
-  }
   return Reader(std::move(state));
 }
 
 fs::path FindConfig(const std::string& name) {
+  if (name.empty()) throw ConfigError("the name of a configuration file is empty; give one");
   std::vector<fs::path> places{name};
   if (const char* folder = std::getenv("DEIXIS_CONFIG_DIR"))
     places.push_back(fs::path(folder) / name);
@@ -203,7 +194,9 @@ fs::path FindConfig(const std::string& name) {
   for (const fs::path& place : places) {
     std::error_code ignored;
     if (fs::is_regular_file(place, ignored)) return place.lexically_normal();
-    searched += (searched.empty() ? "" : ", ") + place.lexically_normal().string();
+    const std::string tried = place.lexically_normal().string();
+    if (fs::exists(place, ignored)) throw ConfigError("'" + tried + "' is not a file; give one");
+    searched += (searched.empty() ? "" : ", ") + tried;
   }
   throw ConfigError("configuration file '" + name + "' not found; searched: " + searched);
 }

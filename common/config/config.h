@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -16,15 +17,31 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What is wrong with one key: "must be positive".
+struct Fault {
+  std::string key;
+  std::string text;
+};
+
+/// A config struct whose values make no sense; its keys are named as that struct names them.
+class FaultsFound : public ConfigError {
+ public:
+  explicit FaultsFound(std::vector<Fault> faults);
+  const std::vector<Fault>& faults() const { return faults_; }
+
+ private:
+  std::vector<Fault> faults_;
+};
+
 /// Collects what is wrong with a config struct, so that Validate() can report everything at once.
 class Faults {
  public:
   /// Notes `fault` ("must be positive") against `key` unless `holds`.
   void Require(bool holds, const std::string& key, const std::string& fault);
-  void ThrowIfAny() const;  ///< Throws ConfigError listing all faults.
+  void ThrowIfAny() const;  ///< Throws FaultsFound with all faults.
 
  private:
-  std::vector<std::string> faults_;
+  std::vector<Fault> faults_;
 };
 
 /// How complete a file has to be.
@@ -36,8 +53,9 @@ enum class Completeness {
 /// A YAML mapping that is being read into a struct. A config struct names its fields in
 /// `template <typename Visitor> void Visit(Visitor& v) { v("rate_hz", rate_hz); ... }`; fields may
 /// be bool, integers, double, std::string, enumerations with an `EnumNames`, structs with `Visit`,
-/// and std::vector of these. An enumeration gets its names from a function beside it: `inline auto
-/// EnumNames(Pace) { return std::vector<std::pair<std::string, Pace>>{...}; }`.
+/// and std::vector of these. A struct with `void Validate() const` is checked as soon as it is
+/// read, nested ones before the outer one. An enumeration gets its names from a function beside it:
+/// `inline auto EnumNames(Pace) { return std::vector<std::pair<std::string, Pace>>{...}; }`.
 class Reader {
  public:
   ~Reader();
@@ -76,6 +94,12 @@ class Reader {
   struct HasVisit<T, std::void_t<decltype(std::declval<T&>().Visit(std::declval<Reader&>()))>>
       : std::true_type {};
 
+  template <typename T, typename = void>
+  struct HasValidate : std::false_type {};
+  template <typename T>
+  struct HasValidate<T, std::void_t<decltype(std::declval<const T&>().Validate())>>
+      : std::true_type {};
+
   template <typename T>
   void ReadEnum(T& field) {
     std::string word;
@@ -96,6 +120,7 @@ class Reader {
     RequireMapping();
     field.Visit(*this);
     RejectUnknownKeys();
+    if constexpr (HasValidate<T>::value) Judge([&field] { field.Validate(); });
   }
 
   void ReadScalar(bool& field);
@@ -109,6 +134,8 @@ class Reader {
   std::vector<Reader> Elements();
   void RequireMapping();
   void RejectUnknownKeys();
+  /// Calls `validate`; what it finds is thrown with full keys and their places.
+  void Judge(const std::function<void()>& validate) const;
   [[noreturn]] void Fail(const std::string& fault) const;
 
   struct State;
@@ -118,30 +145,27 @@ class Reader {
   std::unique_ptr<State> state_;
 };
 
-/// Opens a YAML file and sets `overrides` ("tracker.rate_hz=30", dots for nested keys, YAML values)
-/// over its values. Throws ConfigError when it cannot be read, has duplicate keys, or is not a
-/// mapping.
+/// Opens a YAML file and sets `overrides` over its values: "tracker.rate_hz=30", dots for nested
+/// keys, YAML values; a text is taken as it is ("source.pattern=*.jpg"). Throws ConfigError when it
+/// cannot be read, has duplicate keys, anchors or aliases, or is not a mapping.
 Reader OpenFile(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                 Completeness completeness);
 
-/// Reads `path` into a T: defaults first, then the file, then `overrides`, then T::Validate().
-/// Unknown and duplicate keys are rejected. Throws ConfigError naming file, line and key.
+/// Reads `path` into a T: defaults first, then the file, then `overrides`, then Validate() of every
+/// struct. Unknown and duplicate keys are rejected. Throws ConfigError naming file, line and key,
+/// or the override that is at fault.
 template <typename T>
 T Load(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
        Completeness completeness = Completeness::kDefaultsAllowed) {
   T value{};
   OpenFile(path, overrides, completeness).Read(value);
-  try {
-    value.Validate();
-  } catch (const ConfigError& error) {
-    throw ConfigError(path.string() + ": " + error.what());
-  }
   return value;
 }
 
 /// Where a shipped configuration file lies: `name` itself if it is a path that exists, else under
 /// $DEIXIS_CONFIG_DIR, else beside the installed or built program (../share/deixis/config), else
-/// the source tree. Throws ConfigError listing the places that were searched.
+/// the source tree. Throws ConfigError listing the places that were searched, or naming what lies
+/// there and is no file.
 std::filesystem::path FindConfig(const std::string& name);
 
 }  // namespace deixis::config

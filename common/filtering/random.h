@@ -14,9 +14,9 @@ class CounterRandom {
   std::uint64_t Bits(std::uint64_t counter) const { return Mix(key_ + counter * kGolden); }
 
   /// In [0, 1).
-  float Uniform(std::uint64_t counter) const {
-    return static_cast<float>(Bits(counter) >> 40) * 0x1p-24F;
-  }
+  float Uniform(std::uint64_t counter) const { return UniformFrom(Bits(counter)); }
+
+  static float UniformFrom(std::uint64_t bits) { return static_cast<float>(bits >> 40) * 0x1p-24F; }
 
   /// Mean 0, variance 1: the sum of four uniform numbers (Irwin-Hall), whose tails end at 3.46.
   float Normal(std::uint64_t counter) const { return NormalFrom(Bits(counter)); }

@@ -1,8 +1,6 @@
 #pragma once
 #include <vector>
 
-#include "common/filtering/random.h"
-
 namespace deixis::filtering {
 
 /// Systematic resampling (Kitagawa 1996): fills `ancestors` with indices into `weights`, ascending,
@@ -11,9 +9,5 @@ namespace deixis::filtering {
 /// is positive.
 bool ResampleSystematically(const std::vector<float>& weights, float offset,
                             std::vector<int>& ancestors);
-
-/// Stratified resampling: as above with one random number per ancestor.
-bool ResampleStratified(const std::vector<float>& weights, const CounterRandom& random,
-                        std::vector<int>& ancestors);
 
 }  // namespace deixis::filtering

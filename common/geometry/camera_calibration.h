@@ -29,8 +29,4 @@ struct CameraCalibration {
 /// not calibrated. Throws std::invalid_argument on a size or an angle that no camera has.
 CameraCalibration GuessCalibration(int width_px, int height_px, double horizontal_fov_rad);
 
-/// Pixel of a point in the camera's frame (3 values, metres, z > 0), distortion included.
-Eigen::Vector2d Project(const CameraCalibration& calibration,
-                        const Eigen::Vector3d& point_in_camera);
-
 }  // namespace deixis::geometry

@@ -21,6 +21,9 @@ struct Field {
 /// Names the service in every later line; call once, at the start of a program.
 void SetService(const std::string& service);
 
+/// Write one line to standard error: time, level, service, `event` (a word with underscores that
+/// programs can look for) and the fields, values with blanks quoted. Info is news, Warn what works
+/// less well than it should, Error what ends the program.
 void Info(const std::string& event, std::initializer_list<Field> fields = {});
 void Warn(const std::string& event, std::initializer_list<Field> fields = {});
 void Error(const std::string& event, std::initializer_list<Field> fields = {});

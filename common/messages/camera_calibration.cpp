@@ -37,30 +37,29 @@ std::string FromModel(DistortionModel wanted) {
 void RequireSensible(const CameraCalibration& calibration) {
   const std::int64_t pixels = std::int64_t{calibration.width_px} * calibration.height_px;
   const bool is_sensible = calibration.width_px > 0 && calibration.height_px > 0 &&
-                           pixels <= kMostPixels && calibration.focal_px.minCoeff() > 0.0;
+                           pixels <= kMostPixels && calibration.focal_px.minCoeff() >= 1.0;
   if (!is_sensible) throw Rejected("out_of_range");
 }
 
 }  // namespace
 
-CameraCalibration Codec<CameraCalibration>::Decode(Bytes bytes, Header& header) {
+Decoded<CameraCalibration> Codec<CameraCalibration>::Decode(Bytes bytes) {
   const auto message = DecodeWire<camera_calibration_t>(bytes);
   RequireCount(message.n_distortion, kMostDistortion);
-  header = {{message.utime}, message.sequence};
   CameraCalibration calibration;
-  calibration.time = {message.utime};
+  calibration.time = ToTimestamp(message.utime);
   calibration.camera = message.camera;
   calibration.width_px = message.width_px;
   calibration.height_px = message.height_px;
   calibration.distortion_model = ToModel(message.distortion_model);
   for (const double value : message.distortion) calibration.distortion.push_back(Finite(value));
-  calibration.focal_px = ToVector<2>(message.focal_px);
-  calibration.principal_point_px = ToVector<2>(message.principal_point_px);
+  calibration.focal_px = ToPixels<2>(message.focal_px);
+  calibration.principal_point_px = ToPixels<2>(message.principal_point_px);
   const auto rectification = ToVector<9>(message.rectification);
   calibration.rectification = Eigen::Map<const RowMajor3d>(rectification.data());
   calibration.is_calibrated = message.is_calibrated != 0;
   RequireSensible(calibration);
-  return calibration;
+  return {std::move(calibration), Count(message.sequence)};
 }
 
 std::vector<std::uint8_t> Codec<CameraCalibration>::Encode(const CameraCalibration& calibration,

@@ -9,7 +9,7 @@ namespace deixis::messages {
 
 template <>
 struct Codec<geometry::CameraCalibration> {
-  static geometry::CameraCalibration Decode(Bytes bytes, Header& header);
+  static Decoded<geometry::CameraCalibration> Decode(Bytes bytes);
   static std::vector<std::uint8_t> Encode(const geometry::CameraCalibration& value,
                                           std::int64_t sequence);
   static Timestamp Time(const geometry::CameraCalibration& value) { return value.time; }

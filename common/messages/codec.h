@@ -22,14 +22,15 @@ struct Bytes {
   std::size_t size = 0;
 };
 
-/// What is the same in every message, read when it arrives.
-struct Header {
-  Timestamp time;
-  std::int64_t sequence = -1;  ///< -1: the type carries none.
+/// A message that makes sense, and its number among those of its publisher.
+template <typename T>
+struct Decoded {
+  T value;
+  std::int64_t sequence = -1;  ///< -1: it carries none.
 };
 
 /// How a plain struct travels. Each specialisation (one file per type in this folder) offers
-///   static T Decode(Bytes bytes, Header& header);              // throws Rejected
+///   static Decoded<T> Decode(Bytes bytes);                     // throws Rejected
 ///   static std::vector<std::uint8_t> Encode(const T& value, std::int64_t sequence);
 ///   static Timestamp Time(const T& value);
 template <typename T>

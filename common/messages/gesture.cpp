@@ -28,24 +28,23 @@ void FromRay(const PointingRay& ray, gesture_t& message) {
 
 }  // namespace
 
-Gesture Codec<Gesture>::Decode(Bytes bytes, Header& header) {
+Decoded<Gesture> Codec<Gesture>::Decode(Bytes bytes) {
   const auto message = DecodeWire<gesture_t>(bytes);
-  header = {{message.utime}, message.sequence};
   Gesture gesture;
-  gesture.time = {message.utime};
+  gesture.time = ToTimestamp(message.utime);
   gesture.event_id = message.event_id;
   gesture.person_id = message.person_id;
   gesture.hand_id = message.hand_id;
   gesture.side = Enumeration(message.side, Side::kRight);
   gesture.name = message.name;
-  gesture.start = {message.start_utime};
-  gesture.end = {message.end_utime};
+  gesture.start = ToTimestamp(message.start_utime);
+  gesture.end = ToTimestamp(message.end_utime);
   gesture.outcome = Enumeration(message.outcome, GestureOutcome::kAmbiguous);
   gesture.object_id = message.object_id;
   gesture.object_label = message.object_label;
   gesture.candidates = ToCandidates(message.candidates);
   if (message.has_ray) gesture.ray = ToRay(message);
-  return gesture;
+  return {std::move(gesture), Count(message.sequence)};
 }
 
 std::vector<std::uint8_t> Codec<Gesture>::Encode(const Gesture& gesture, std::int64_t sequence) {

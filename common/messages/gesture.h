@@ -9,7 +9,7 @@ namespace deixis::messages {
 
 template <>
 struct Codec<scene::Gesture> {
-  static scene::Gesture Decode(Bytes bytes, Header& header);
+  static Decoded<scene::Gesture> Decode(Bytes bytes);
   static std::vector<std::uint8_t> Encode(const scene::Gesture& value, std::int64_t sequence);
   static Timestamp Time(const scene::Gesture& value) { return value.time; }
 };

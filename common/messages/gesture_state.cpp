@@ -1,5 +1,6 @@
 #include "common/messages/gesture_state.h"
 
+#include <cmath>
 #include <deixis/gesture_state_t.hpp>
 
 #include "common/messages/scene_parts.h"
@@ -12,18 +13,24 @@ using scene::GestureHypothesis;
 using scene::GestureState;
 using scene::Side;
 
+double Angle(double value_rad) {
+  constexpr double kLargest_rad = 100.0;  // Directions need not lie within one turn.
+  if (std::abs(Finite(value_rad)) > kLargest_rad) throw Rejected("out_of_range");
+  return value_rad;
+}
+
 GestureHypothesis ToHypothesis(const gesture_hypothesis_t& message) {
   GestureHypothesis hypothesis;
   hypothesis.hand_id = message.hand_id;
   hypothesis.person_id = message.person_id;
   hypothesis.side = Enumeration(message.side, Side::kRight);
   hypothesis.model = message.model;
-  hypothesis.phase = Finite(message.phase);
+  hypothesis.phase = Probability(message.phase);
   hypothesis.end_probability = Probability(message.end_probability);
   if (message.has_context) {
     hypothesis.context =
-        ContextArea{ToVector<2>(message.context_centre_px), Finite(message.context_radius_px),
-                    Finite(message.context_start_rad), Finite(message.context_end_rad)};
+        ContextArea{ToPixels<2>(message.context_centre_px), Pixels(message.context_radius_px),
+                    Angle(message.context_start_rad), Angle(message.context_end_rad)};
   }
   hypothesis.candidates = ToCandidates(message.candidates);
   hypothesis.none_probability = Probability(message.none_probability);
@@ -53,15 +60,14 @@ gesture_hypothesis_t FromHypothesis(const GestureHypothesis& hypothesis) {
 
 }  // namespace
 
-GestureState Codec<GestureState>::Decode(Bytes bytes, Header& header) {
+Decoded<GestureState> Codec<GestureState>::Decode(Bytes bytes) {
   const auto message = DecodeWire<gesture_state_t>(bytes);
   RequireCount(message.n_hypotheses, kMostHands);
-  header = {{message.utime}, message.sequence};
-  GestureState state{{message.utime}, message.camera, message.frame, {}};
+  GestureState state{ToTimestamp(message.utime), message.camera, message.frame, {}};
   for (const auto& hypothesis : message.hypotheses) {
     state.hypotheses.push_back(ToHypothesis(hypothesis));
   }
-  return state;
+  return {std::move(state), Count(message.sequence)};
 }
 
 std::vector<std::uint8_t> Codec<GestureState>::Encode(const GestureState& state,

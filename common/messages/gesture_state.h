@@ -9,7 +9,7 @@ namespace deixis::messages {
 
 template <>
 struct Codec<scene::GestureState> {
-  static scene::GestureState Decode(Bytes bytes, Header& header);
+  static Decoded<scene::GestureState> Decode(Bytes bytes);
   static std::vector<std::uint8_t> Encode(const scene::GestureState& value, std::int64_t sequence);
   static Timestamp Time(const scene::GestureState& value) { return value.time; }
 };

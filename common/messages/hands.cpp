@@ -21,11 +21,11 @@ Hand ToHand(const hand_t& message) {
   hand.side_probability = Probability(message.side_probability);
   hand.is_acting = message.is_acting != 0;
   hand.state = Enumeration(message.state, HandState::kOccluded);
-  hand.centre_px = ToVector<2>(message.centre_px);
-  hand.velocity_px_per_s = ToVector<2>(message.velocity_px_per_s);
-  hand.covariance = ToSymmetric<4>(message.covariance);
+  hand.centre_px = ToPixels<2>(message.centre_px);
+  hand.velocity_px_per_s = ToPixels<2>(message.velocity_px_per_s);
+  hand.covariance = ToPixelCovariance<4>(message.covariance);
   hand.box = ToBox(message.box_px);
-  if (message.has_fingertip) hand.fingertip_px = ToVector<2>(message.fingertip_px);
+  if (message.has_fingertip) hand.fingertip_px = ToPixels<2>(message.fingertip_px);
   if (message.has_position) {
     hand.position =
         HandPosition{ToVector<3>(message.position_m), ToVector<3>(message.velocity_m_per_s),
@@ -59,13 +59,12 @@ hand_t FromHand(const Hand& hand) {
 
 }  // namespace
 
-Hands Codec<Hands>::Decode(Bytes bytes, Header& header) {
+Decoded<Hands> Codec<Hands>::Decode(Bytes bytes) {
   const auto message = DecodeWire<hand_tracks_t>(bytes);
   RequireCount(message.n_hands, kMostHands);
-  header = {{message.utime}, message.sequence};
-  Hands hands{{message.utime}, message.camera, message.frame, {}};
+  Hands hands{ToTimestamp(message.utime), message.camera, message.frame, {}};
   for (const hand_t& hand : message.hands) hands.hands.push_back(ToHand(hand));
-  return hands;
+  return {std::move(hands), Count(message.sequence)};
 }
 
 std::vector<std::uint8_t> Codec<Hands>::Encode(const Hands& hands, std::int64_t sequence) {

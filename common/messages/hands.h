@@ -9,7 +9,7 @@ namespace deixis::messages {
 
 template <>
 struct Codec<scene::Hands> {
-  static scene::Hands Decode(Bytes bytes, Header& header);
+  static Decoded<scene::Hands> Decode(Bytes bytes);
   static std::vector<std::uint8_t> Encode(const scene::Hands& value, std::int64_t sequence);
   static Timestamp Time(const scene::Hands& value) { return value.time; }
 };

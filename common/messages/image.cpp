@@ -26,13 +26,12 @@ std::string Metadata(const image_t& message, const std::string& key) {
   return "";
 }
 
-void AddMetadata(const std::string& key, const std::string& value, image_t& message) {
+bot_core::image_metadata_t Entry(const std::string& key, const std::string& value) {
   bot_core::image_metadata_t entry{};
   entry.key = key;
   entry.value.assign(value.begin(), value.end());
   entry.n = static_cast<std::int32_t>(entry.value.size());
-  message.metadata.push_back(entry);
-  message.nmetadata = static_cast<std::int32_t>(message.metadata.size());
+  return entry;
 }
 
 std::int64_t Sequence(const image_t& message) {
@@ -123,10 +122,10 @@ const image_t& LeftOf(const images_t& message) {
   throw Rejected("no_left_image");
 }
 
-Image ToImage(const image_t& message, Header& header) {
+Decoded<Image> ToImage(const image_t& message) {
   RequireSize(message);
-  header = {{message.utime}, Sequence(message)};
-  return {{message.utime}, Metadata(message, kCameraKey), DecodePixels(message)};
+  return {{ToTimestamp(message.utime), Metadata(message, kCameraKey), DecodePixels(message)},
+          Sequence(message)};
 }
 
 image_t Framed(Timestamp time, const std::string& camera, cv::Size size, std::int64_t sequence) {
@@ -135,24 +134,22 @@ image_t Framed(Timestamp time, const std::string& camera, cv::Size size, std::in
   message.width = size.width;
   message.height = size.height;
   message.row_stride = size.width * 3;
-  AddMetadata(kCameraKey, camera, message);
-  AddMetadata(kSequenceKey, std::to_string(sequence), message);
+  message.metadata = {Entry(kCameraKey, camera), Entry(kSequenceKey, std::to_string(sequence))};
+  message.nmetadata = static_cast<std::int32_t>(message.metadata.size());
   return message;
 }
 
 }  // namespace
 
-EncodedImage Codec<EncodedImage>::Decode(Bytes bytes, Header& header) {
+Decoded<EncodedImage> Codec<EncodedImage>::Decode(Bytes bytes) {
   auto message = DecodeWire<image_t>(bytes);
   RequireSize(message);
   if (message.pixelformat != image_t::PIXEL_FORMAT_MJPEG) throw Rejected("bad_image");
   RequireHonestJpeg(message);
-  header = {{message.utime}, Sequence(message)};
-  return {{message.utime},
-          Metadata(message, kCameraKey),
-          message.width,
-          message.height,
-          std::move(message.data)};
+  const std::int64_t sequence = Sequence(message);
+  return {{ToTimestamp(message.utime), Metadata(message, kCameraKey), message.width, message.height,
+           std::move(message.data)},
+          sequence};
 }
 
 std::vector<std::uint8_t> Codec<EncodedImage>::Encode(const EncodedImage& image,
@@ -164,11 +161,11 @@ std::vector<std::uint8_t> Codec<EncodedImage>::Encode(const EncodedImage& image,
   return EncodeWire(message);
 }
 
-Image Codec<Image>::Decode(Bytes bytes, Header& header) {
+Decoded<Image> Codec<Image>::Decode(Bytes bytes) {
   if (Fingerprint(bytes) == images_t::getHash()) {
-    return ToImage(LeftOf(DecodeWire<images_t>(bytes)), header);
+    return ToImage(LeftOf(DecodeWire<images_t>(bytes)));
   }
-  return ToImage(DecodeWire<image_t>(bytes), header);
+  return ToImage(DecodeWire<image_t>(bytes));
 }
 
 std::vector<std::uint8_t> Codec<Image>::Encode(const Image& image, std::int64_t sequence) {

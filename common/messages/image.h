@@ -12,7 +12,7 @@ namespace deixis::messages {
 /// and `deixis.sequence`.
 template <>
 struct Codec<images::EncodedImage> {
-  static images::EncodedImage Decode(Bytes bytes, Header& header);
+  static Decoded<images::EncodedImage> Decode(Bytes bytes);
   static std::vector<std::uint8_t> Encode(const images::EncodedImage& value, std::int64_t sequence);
   static Timestamp Time(const images::EncodedImage& value) { return value.time; }
 };
@@ -21,7 +21,7 @@ struct Codec<images::EncodedImage> {
 /// a bot_core.images_t; told apart by fingerprint. It is published as raw BGR.
 template <>
 struct Codec<images::Image> {
-  static images::Image Decode(Bytes bytes, Header& header);
+  static Decoded<images::Image> Decode(Bytes bytes);
   static std::vector<std::uint8_t> Encode(const images::Image& value, std::int64_t sequence);
   static Timestamp Time(const images::Image& value) { return value.time; }
 };

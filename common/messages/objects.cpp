@@ -1,6 +1,8 @@
 #include "common/messages/objects.h"
 
+#include <algorithm>
 #include <deixis/objects_t.hpp>
+#include <optional>
 
 #include "common/messages/scene_parts.h"
 
@@ -13,6 +15,11 @@ using scene::ObjectPosition;
 using scene::Objects;
 using scene::Visibility;
 
+// Faces give the scale of the image.
+void RequireVisible(const std::optional<scene::Box>& face) {
+  if (face && std::min(face->width_px, face->height_px) < 1.0) throw Rejected("out_of_range");
+}
+
 Object ToObject(const object_t& message) {
   Object object;
   object.id = message.id;
@@ -20,14 +27,15 @@ Object ToObject(const object_t& message) {
   object.kind = Enumeration(message.kind, ObjectKind::kPlace);
   object.person_id = message.person_id;
   if (message.has_box) object.box = ToBox(message.box_px);
+  if (object.kind == ObjectKind::kFace) RequireVisible(object.box);
   if (message.has_position) {
     object.position = ObjectPosition{ToVector<3>(message.position_m),
                                      ToSymmetric<3>(message.position_covariance_m2),
                                      ToVector<3>(message.extent_m)};
   }
-  object.score = Finite(message.score);
+  object.score = Probability(message.score);
   object.visibility = Enumeration(message.visibility, Visibility::kRemembered);
-  object.last_seen = {message.last_seen_utime};
+  object.last_seen = ToTimestamp(message.last_seen_utime);
   return object;
 }
 
@@ -53,13 +61,12 @@ object_t FromObject(const Object& object) {
 
 }  // namespace
 
-Objects Codec<Objects>::Decode(Bytes bytes, Header& header) {
+Decoded<Objects> Codec<Objects>::Decode(Bytes bytes) {
   const auto message = DecodeWire<objects_t>(bytes);
   RequireCount(message.n_objects, kMostObjects);
-  header = {{message.utime}, message.sequence};
-  Objects objects{{message.utime}, message.camera, message.frame, message.source, {}};
+  Objects objects{ToTimestamp(message.utime), message.camera, message.frame, message.source, {}};
   for (const object_t& object : message.objects) objects.objects.push_back(ToObject(object));
-  return objects;
+  return {std::move(objects), Count(message.sequence)};
 }
 
 std::vector<std::uint8_t> Codec<Objects>::Encode(const Objects& objects, std::int64_t sequence) {

@@ -9,7 +9,7 @@ namespace deixis::messages {
 
 template <>
 struct Codec<scene::Objects> {
-  static scene::Objects Decode(Bytes bytes, Header& header);
+  static Decoded<scene::Objects> Decode(Bytes bytes);
   static std::vector<std::uint8_t> Encode(const scene::Objects& value, std::int64_t sequence);
   static Timestamp Time(const scene::Objects& value) { return value.time; }
 };

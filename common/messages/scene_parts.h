@@ -10,7 +10,7 @@
 namespace deixis::messages {
 
 inline scene::Box ToBox(const double (&values)[4]) {
-  const auto box = ToVector<4>(values);
+  const auto box = ToPixels<4>(values);
   if (box[2] < 0.0 || box[3] < 0.0) throw Rejected("out_of_range");
   return {box[0], box[1], box[2], box[3]};
 }

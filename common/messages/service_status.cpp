@@ -39,12 +39,11 @@ channel_status_t FromChannel(const ChannelStatistics& channel) {
 
 }  // namespace
 
-ServiceStatus Codec<ServiceStatus>::Decode(Bytes bytes, Header& header) {
+Decoded<ServiceStatus> Codec<ServiceStatus>::Decode(Bytes bytes) {
   const auto message = DecodeWire<service_status_t>(bytes);
   RequireCount(message.n_channels, kMostChannels);
-  header = {{message.utime}, message.sequence};
   ServiceStatus status;
-  status.time = {message.utime};
+  status.time = ToTimestamp(message.utime);
   status.service = message.service;
   status.instance = message.instance;
   status.host = message.host;
@@ -58,7 +57,7 @@ ServiceStatus Codec<ServiceStatus>::Decode(Bytes bytes, Header& header) {
   status.age_ms_p50 = Finite(message.age_ms_p50);
   status.age_ms_p99 = Finite(message.age_ms_p99);
   status.receive_buffer_bytes = message.receive_buffer_bytes;
-  return status;
+  return {std::move(status), Count(message.sequence)};
 }
 
 std::vector<std::uint8_t> Codec<ServiceStatus>::Encode(const ServiceStatus& status,

@@ -15,7 +15,7 @@ struct ChannelStatistics {
   std::string channel;
   Direction direction = Direction::kIn;
   std::int64_t messages = 0;  ///< Accepted (in) or published (out).
-  double rate_hz = 0.0;       ///< Over the last second.
+  double rate_hz = 0.0;       ///< Since the last statement, about a second ago.
   std::int64_t gaps = 0;      ///< Messages that are missing between sequence numbers.
   std::int64_t skipped = 0;   ///< Passed over because a newer one was there.
   std::map<std::string, std::int64_t> drops;  ///< Not used, by reason.
@@ -34,7 +34,7 @@ struct ServiceStatus {
   ServiceState state = ServiceState::kStarting;
   std::string text;
   std::vector<ChannelStatistics> channels;
-  double processing_ms_p50 = -1.0;  ///< Time in handlers per message; -1: nothing handled yet.
+  double processing_ms_p50 = -1.0;  ///< Per message, of the last 512; -1: none yet.
   double processing_ms_p99 = -1.0;
   double age_ms_p50 = -1.0;  ///< Capture to publication; -1: not live or nothing published.
   double age_ms_p99 = -1.0;
@@ -43,7 +43,7 @@ struct ServiceStatus {
 
 template <>
 struct Codec<ServiceStatus> {
-  static ServiceStatus Decode(Bytes bytes, Header& header);
+  static Decoded<ServiceStatus> Decode(Bytes bytes);
   static std::vector<std::uint8_t> Encode(const ServiceStatus& status, std::int64_t sequence);
   static Timestamp Time(const ServiceStatus& status) { return status.time; }
 };

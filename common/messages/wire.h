@@ -22,6 +22,10 @@ inline constexpr std::int32_t kMostCandidates = 4096;
 inline constexpr std::int32_t kMostChannels = 1024;
 inline constexpr std::int32_t kMostDistortion = 14;
 inline constexpr std::int64_t kMostPixels = 64 * 1024 * 1024;
+/// Of a coordinate, size or speed in the image: far beyond any picture, yet safe as an int.
+inline constexpr double kFarthest_px = 1e6;
+/// Of times and sequence numbers: their differences cannot overflow (year 38,500).
+inline constexpr std::int64_t kLargestCount = std::int64_t{1} << 60;
 
 /// The type's fingerprint at the head of an encoded message.
 inline std::int64_t Fingerprint(Bytes bytes) {
@@ -40,8 +44,8 @@ Message DecodeWire(Bytes bytes) {
   }
   Message message{};
   const int used = message.decode(bytes.data, 0, static_cast<int>(bytes.size));
-  if (used < 0) throw Rejected("malformed");
-  if (static_cast<std::size_t>(used) != bytes.size) throw Rejected("truncated");
+  if (used < 0) throw Rejected("truncated");
+  if (static_cast<std::size_t>(used) != bytes.size) throw Rejected("trailing_bytes");
   return message;
 }
 
@@ -63,6 +67,14 @@ inline double Finite(double value) {
   return value;
 }
 
+/// A time in microseconds, or a sequence number.
+inline std::int64_t Count(std::int64_t value) {
+  if (value < 0 || value > kLargestCount) throw Rejected("out_of_range");
+  return value;
+}
+
+inline Timestamp ToTimestamp(std::int64_t utime) { return {Count(utime)}; }
+
 /// A number as an enumeration whose last value is `last`.
 template <typename Enum>
 Enum Enumeration(std::int8_t value, Enum last) {
@@ -79,6 +91,19 @@ template <int N>
 Eigen::Matrix<double, N, 1> ToVector(const double (&values)[N]) {
   Eigen::Matrix<double, N, 1> vector;
   for (int i = 0; i < N; ++i) vector[i] = Finite(values[i]);
+  return vector;
+}
+
+/// A length or coordinate in the image.
+inline double Pixels(double value) {
+  if (std::abs(Finite(value)) > kFarthest_px) throw Rejected("out_of_range");
+  return value;
+}
+
+template <int N>
+Eigen::Matrix<double, N, 1> ToPixels(const double (&values)[N]) {
+  Eigen::Matrix<double, N, 1> vector;
+  for (int i = 0; i < N; ++i) vector[i] = Pixels(values[i]);
   return vector;
 }
 
@@ -99,6 +124,14 @@ Eigen::Matrix<double, N, N> ToSymmetric(const double (&triangle)[M]) {
       matrix(row, column) = matrix(column, row) = Finite(triangle[i]);
     }
   }
+  return matrix;
+}
+
+/// A covariance in the image.
+template <int N, int M>
+Eigen::Matrix<double, N, N> ToPixelCovariance(const double (&triangle)[M]) {
+  const auto matrix = ToSymmetric<N>(triangle);
+  if (matrix.cwiseAbs().maxCoeff() > kFarthest_px * kFarthest_px) throw Rejected("out_of_range");
   return matrix;
 }
 

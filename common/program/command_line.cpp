@@ -6,6 +6,16 @@
 
 namespace deixis::program {
 
+std::string AssignmentFault(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals != std::string::npos && equals > 0) return "";
+  return "'" + text + "' is not of the form key=value";
+}
+
+std::string EmptyFault(const std::string& text) {
+  return text.empty() ? "is empty; give a name or leave the option out" : "";
+}
+
 ParsedCommandLine ParseCommandLine(const Description& description, int argc, char** argv) {
   ParsedCommandLine parsed;
   CommandLine& line = parsed.command_line;
@@ -15,9 +25,11 @@ ParsedCommandLine ParseCommandLine(const Description& description, int argc, cha
   CLI::App app(description.purpose, program);
   app.set_version_flag("--version", program + " " DEIXIS_VERSION);
   app.add_option("-c,--config", line.config_file,
-                 "Configuration file (default: the shipped " + description.name + ".yaml)");
+                 "Configuration file (default: the shipped " + description.name + ".yaml)")
+      ->check(EmptyFault);
   app.add_option("--set", line.overrides,
                  "Set one key of the configuration: key=value, dots for nested keys; repeatable")
+      ->check(AssignmentFault)
       ->allow_extra_args(false);
   app.add_option("-l,--lcm-url", line.bus.url,
                  "LCM URL (default: $LCM_DEFAULT_URL, else LCM's own)");

@@ -21,6 +21,12 @@ enum ExitCode : int {
   kWrongCommand = 2,  ///< The command line is not understood.
 };
 
+/// What is wrong with a command line's text "key=value"; empty when nothing is.
+std::string AssignmentFault(const std::string& text);
+
+/// What is wrong with a text that must name something; empty when nothing is.
+std::string EmptyFault(const std::string& text);
+
 /// What the command line of a service says.
 struct CommandLine {
   std::string config_file;             ///< --config; empty: config/<name>.yaml.

@@ -38,10 +38,8 @@ void StopOnSignals() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-bool is_stop_requested() { return stop_requested != 0; }
-
 void Loop(const Hosted& hosted, transport::Bus& bus, transport::StatusReporter& status) {
-  while (!is_stop_requested() && !bus.is_exhausted()) {
+  while (stop_requested == 0 && !bus.is_exhausted()) {
     std::chrono::milliseconds wait = kLongestWait;
     if (hosted.step) {
       const StepResult result = hosted.step();

@@ -23,7 +23,6 @@ struct Hosted {
 
 /// Makes SIGINT and SIGTERM end the loop; call before threads are started.
 void StopOnSignals();
-bool is_stop_requested();
 
 /// Handles messages, steps the source, reports status, until a signal arrives, the source is
 /// finished, or a log that is being read has ended. Throws BusError when the bus is lost.

@@ -17,7 +17,7 @@ enum class HandState {
   kMeasured,   ///< An own skin region was found.
   kPredicted,  ///< Nothing was found; the filter's prediction.
   kMerged,     ///< It shares a region with another hand or the face.
-  kOccluded    ///< Known to be behind something.
+  kOccluded    ///< Nothing was found for so long that it must be hidden.
 };
 
 /// A hand's place and motion in space, in the message's frame.

@@ -44,8 +44,12 @@ const ColourGaussian& GenericSkin() {
   return gaussian;
 }
 
+// Mean and sigma of ln(brightness) of what is not skin.
+constexpr double kOtherLuminance = 4.45;
+constexpr double kOtherLuminanceSigma = 0.9;  // Root of the 0.80 below, rounded.
+
 const ColourGaussian& GenericOther() {
-  static const ColourGaussian gaussian({0.23, 0.11, 4.45},
+  static const ColourGaussian gaussian({0.23, 0.11, kOtherLuminance},
                                        Symmetric(0.33, 0.008, 0.14, -0.096, -0.013, 0.80));
   return gaussian;
 }
@@ -185,7 +189,8 @@ double SkinModel::Probability(const LogChromaticity& colour) const {
     skin += config_.face_weight * (own - skin);
   }
   if (!scene_.is_empty()) {
-    const double own = scene_.Density(colour) * LuminanceDensity(colour.luminance, 4.45, 0.9);
+    const double own = scene_.Density(colour) *
+                       LuminanceDensity(colour.luminance, kOtherLuminance, kOtherLuminanceSigma);
     other += config_.scene_weight * (own - other);
   }
   const double weighted = config_.skin_share * skin;

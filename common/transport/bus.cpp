@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "common/logging/log.h"
+#include "common/transport/channel_name.h"
 #include "common/transport/log_writer.h"
 #include "common/transport/receive_buffer.h"
 #include "common/transport/sample_window.h"
@@ -28,6 +29,8 @@ constexpr int kMostPerHandle = 2000;
 // Results older than this come from a replayed log, not from a live camera.
 constexpr double kOldestLiveAge_ms = 10'000.0;
 constexpr std::chrono::seconds kWarnEvery{10};
+// A larger jump is no loss but a publisher that counts anew, or a forged number.
+constexpr std::int64_t kLargestGap = 100'000;
 
 double MillisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -44,7 +47,37 @@ const char* Cure(const Url& url) {
     return "; is there a multicast route? For this host alone: ip route add 224.0.0.0/4 dev lo";
   }
   if (url.provider == "file") return "; does the log exist and is it readable?";
+  if (url.provider == "tcpq") {
+    return ": no server answers there; start lcm-tcpq-server on that host and port, or take "
+           "udpm://";
+  }
   return "; known are udpm://, tcpq://, memq:// and file://";
+}
+
+void RequireChannelName(const std::string& wire_channel) {
+  if (IsChannelName(wire_channel)) return;
+  throw BusError("channel '" + wire_channel + "' (prefix included) " + kChannelNameRule +
+                 "; rename it in the configuration");
+}
+
+/// Why an exception, the one being handled, kept a message from being used.
+struct Fault {
+  std::string reason;
+  std::string detail;
+};
+
+Fault CurrentFault() {
+  try {
+    throw;
+  } catch (const messages::Rejected& rejected) {
+    return {rejected.what(), rejected.what()};
+  } catch (const std::bad_alloc&) {
+    return {"too_large", "out of memory"};
+  } catch (const std::exception& error) {
+    return {"malformed", error.what()};
+  } catch (...) {
+    return {"malformed", "unknown exception"};
+  }
 }
 
 }  // namespace
@@ -59,6 +92,7 @@ struct Bus::Implementation {
     messages::ChannelStatistics statistics;
     std::int64_t last_sequence = -1;
     std::int64_t skipped_since_delivery = 0;
+    std::int64_t without_memory = 0;   // not handed on; counted without taking memory
     std::vector<std::uint8_t> newest;  // kLatest: bytes waiting for their turn
     bool is_waiting = false;
     Clock::time_point next_warning{};
@@ -71,15 +105,30 @@ struct Bus::Implementation {
 
   explicit Implementation(const BusOptions& bus_options)
       : options(bus_options), url(ResolveUrl(options.url, options.receive_buffer_bytes)) {
+    if (url.provider == "udpm") {
+      receive_buffer_bytes = ExpectedReceiveBuffer(std::atoi(url.option("recv_buf_size").c_str()));
+    }
     if (url.provider == "file" && url.option("mode") == "w") {
       writer.emplace(url.network);
       return;
     }
     lcm = lcm_create(url.text.c_str());
-    if (lcm == nullptr) throw BusError("cannot open LCM at '" + url.text + "'" + Cure(url));
+    if (!IsOpen()) {
+      Close();
+      throw BusError("cannot open LCM at '" + url.text + "'" + Cure(url));
+    }
   }
-  ~Implementation() {
+  ~Implementation() { Close(); }
+
+  // LCM makes a tcpq handle without a server, too; waiting on its socket, -1, would end the
+  // program.
+  bool IsOpen() const {
+    return lcm != nullptr && (url.provider != "tcpq" || lcm_get_fileno(lcm) >= 0);
+  }
+
+  void Close() {
     if (lcm != nullptr) lcm_destroy(lcm);
+    lcm = nullptr;
   }
 
   Subscription& Add(const std::string& wire_channel) {
@@ -94,9 +143,9 @@ struct Bus::Implementation {
     return subscription;
   }
 
-  void Connect(Subscription& subscription) {
+  void Connect(Subscription& subscription, const std::string& pattern) {
     lcm_subscription_t* handle =
-        lcm_subscribe(lcm, subscription.channel.c_str(), &Implementation::OnMessage, &subscription);
+        lcm_subscribe(lcm, pattern.c_str(), &Implementation::OnMessage, &subscription);
     if (handle == nullptr) {
       throw BusError("cannot subscribe to '" + subscription.channel + "' at '" + url.text + "'" +
                      Cure(url));
@@ -107,14 +156,18 @@ struct Bus::Implementation {
   // LCM's C code calls this: nothing may escape.
   static void OnMessage(const lcm_recv_buf_t* received, const char* channel, void* user) {
     auto& subscription = *static_cast<Subscription*>(user);
-    const RawMessage raw{channel,
-                         {static_cast<const std::uint8_t*>(received->data), received->data_size},
-                         received->recv_utime};
     subscription.bus->arrived++;
-    if (subscription.delivery == Delivery::kLatest) {
-      subscription.bus->KeepNewest(subscription, raw);
-    } else {
-      subscription.bus->Deliver(subscription, raw);
+    try {
+      const RawMessage raw{channel,
+                           {static_cast<const std::uint8_t*>(received->data), received->data_size},
+                           received->recv_utime};
+      if (subscription.delivery == Delivery::kLatest) {
+        subscription.bus->KeepNewest(subscription, raw);
+      } else {
+        subscription.bus->Deliver(subscription, raw);
+      }
+    } catch (...) {  // Deliver has dealt with all but a lack of memory.
+      ++subscription.without_memory;
     }
   }
 
@@ -131,41 +184,43 @@ struct Bus::Implementation {
   void Deliver(Subscription& subscription, const RawMessage& raw) {
     const Clock::time_point start = Clock::now();
     bool is_accepted = false;
-    const Accept accept = [&](const messages::Header& header) {
+    const Accept accept = [&](std::int64_t sequence) {
       is_accepted = true;
       ++subscription.statistics.messages;
-      CountGaps(subscription, header.sequence);
+      CountGaps(subscription, sequence);
     };
     try {
-      if (subscription.receive_raw) {
-        accept({});
-        subscription.receive_raw(raw);
-      } else {
-        subscription.receive(raw.bytes, accept);
-      }
-    } catch (const messages::Rejected& rejected) {
-      Drop(subscription, is_accepted ? "handler_failed" : rejected.what(), rejected.what());
-    } catch (const std::bad_alloc&) {
-      Drop(subscription, is_accepted ? "handler_failed" : "too_large", "out of memory");
-    } catch (const std::exception& error) {
-      Drop(subscription, is_accepted ? "handler_failed" : "malformed", error.what());
+      Hand(subscription, raw, accept);
     } catch (...) {
-      Drop(subscription, is_accepted ? "handler_failed" : "malformed", "unknown exception");
+      const Fault fault = CurrentFault();
+      Drop(subscription, is_accepted ? "handler_failed" : fault.reason, fault.detail);
     }
     if (is_accepted && !subscription.receive_raw) processing.Add(MillisecondsSince(start));
   }
 
+  static void Hand(Subscription& subscription, const RawMessage& raw, const Accept& accept) {
+    if (subscription.receive_raw) {
+      accept(-1);
+      subscription.receive_raw(raw);
+    } else {
+      subscription.receive(raw.bytes, accept);
+    }
+  }
+
+  // Sequence numbers are -1 (none) or 0..2^60, so differences do not overflow.
   static void CountGaps(Subscription& subscription, std::int64_t sequence) {
     if (sequence < 0) return;
-    // A smaller number is a publisher that started anew; what was skipped was not lost.
-    const std::int64_t missing =
-        sequence - subscription.last_sequence - 1 - subscription.skipped_since_delivery;
-    if (subscription.last_sequence >= 0 && missing > 0) subscription.statistics.gaps += missing;
+    if (subscription.last_sequence >= 0) {
+      // A smaller number is a publisher that counts anew; what was skipped was not lost.
+      const std::int64_t missing =
+          sequence - subscription.last_sequence - 1 - subscription.skipped_since_delivery;
+      if (missing > 0 && missing <= kLargestGap) subscription.statistics.gaps += missing;
+    }
     subscription.last_sequence = sequence;
     subscription.skipped_since_delivery = 0;
   }
 
-  static void Drop(Subscription& subscription, const std::string& reason, const char* what) {
+  static void Drop(Subscription& subscription, const std::string& reason, const std::string& what) {
     const std::int64_t count = ++subscription.statistics.drops[reason];
     if (Clock::now() < subscription.next_warning) return;
     subscription.next_warning = Clock::now() + kWarnEvery;
@@ -227,13 +282,12 @@ struct Bus::Implementation {
 
   void WarnOfSize(Output& output, std::size_t size) {
     if (url.provider != "udpm" || output.has_warned_of_size) return;
-    const int buffer = ExpectedReceiveBuffer(std::atoi(url.option("recv_buf_size").c_str()));
-    if (size <= static_cast<std::size_t>(buffer)) return;
+    if (size <= static_cast<std::size_t>(receive_buffer_bytes)) return;
     output.has_warned_of_size = true;
     logging::Warn("message_exceeds_receive_buffer",
                   {{"channel", output.statistics.channel},
                    {"bytes", size},
-                   {"receive_buffer_bytes", buffer},
+                   {"receive_buffer_bytes", receive_buffer_bytes},
                    {"cure", "sysctl -w net.core.rmem_max=4194304, or smaller messages"}});
   }
 
@@ -246,6 +300,7 @@ struct Bus::Implementation {
   std::map<std::string, Output> outputs;
   SampleWindow processing;
   SampleWindow age;
+  int receive_buffer_bytes = 0;  // That subscribers may expect; udpm only.
   int arrived = 0;
   bool is_exhausted = false;
 };
@@ -254,17 +309,19 @@ Bus::Bus(const BusOptions& options) : implementation_(std::make_unique<Implement
 Bus::~Bus() = default;
 
 void Bus::SubscribeBytes(const std::string& channel, Delivery delivery, Receiver receiver) {
-  auto& subscription = implementation_->Add(implementation_->options.channel_prefix + channel);
+  const std::string wire_channel = implementation_->options.channel_prefix + channel;
+  RequireChannelName(wire_channel);
+  auto& subscription = implementation_->Add(wire_channel);
   if (!implementation_->options.deliver_every_message) subscription.delivery = delivery;
   subscription.receive = std::move(receiver);
-  implementation_->Connect(subscription);
+  implementation_->Connect(subscription, ChannelPattern(wire_channel));
 }
 
 void Bus::SubscribeRaw(const std::string& channels,
                        std::function<void(const RawMessage&)> handler) {
   auto& subscription = implementation_->Add(channels);
   subscription.receive_raw = std::move(handler);
-  implementation_->Connect(subscription);
+  implementation_->Connect(subscription, channels);
 }
 
 void Bus::PublishRaw(const std::string& wire_channel, messages::Bytes bytes, Timestamp time) {
@@ -279,13 +336,14 @@ void Bus::PublishBytes(const std::string& channel, const std::vector<std::uint8_
 
 void Bus::NoteAge(Timestamp time) {
   if (!is_live()) return;
-  const double age_ms = 1e-3 * static_cast<double>(WallClock_us() - time.microseconds);
+  const double age_ms = 1e3 * SecondsBetween(time, {WallClock_us()});
   if (age_ms >= 0.0 && age_ms < kOldestLiveAge_ms) implementation_->age.Add(age_ms);
 }
 
 std::int64_t Bus::NextSequence(const std::string& channel) {
-  return implementation_->OutputOf(implementation_->options.channel_prefix + channel)
-      .next_sequence++;
+  const std::string wire_channel = implementation_->options.channel_prefix + channel;
+  RequireChannelName(wire_channel);
+  return implementation_->OutputOf(wire_channel).next_sequence++;
 }
 
 int Bus::Handle(milliseconds timeout) {
@@ -309,7 +367,11 @@ bool Bus::is_live() const {
 std::vector<messages::ChannelStatistics> Bus::statistics() const {
   std::vector<messages::ChannelStatistics> all;
   for (const auto& subscription : implementation_->subscriptions) {
-    if (subscription.receive) all.push_back(subscription.statistics);
+    if (!subscription.receive) continue;
+    all.push_back(subscription.statistics);
+    if (subscription.without_memory > 0) {
+      all.back().drops["too_large"] += subscription.without_memory;
+    }
   }
   for (const auto& output : implementation_->outputs) all.push_back(output.second.statistics);
   return all;

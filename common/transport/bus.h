@@ -41,7 +41,7 @@ struct RawMessage {
   std::int64_t received_us = 0;  ///< When it arrived.
 };
 
-/// Percentiles over the last few hundred values, in milliseconds; -1 when there are none.
+/// Percentiles over the last 512 values, in milliseconds; -1 when there are none.
 struct Percentiles {
   double p50 = -1.0;
   double p99 = -1.0;
@@ -63,15 +63,16 @@ class Bus {
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// Calls `handler(const T&)` from Handle() for every accepted message of `channel`.
+  /// Calls `handler(const T&)` from Handle() for every accepted message of `channel`. Throws
+  /// BusError when that, behind the prefix, is no channel name (see channel_name.h), as Publish
+  /// does.
   template <typename T, typename Handler>
   void Subscribe(const std::string& channel, Delivery delivery, Handler handler) {
     SubscribeBytes(channel, delivery,
                    [handler = std::move(handler)](messages::Bytes bytes, const Accept& accept) {
-                     messages::Header header;
-                     const T value = messages::Codec<T>::Decode(bytes, header);
-                     accept(header);
-                     handler(value);
+                     const auto message = messages::Codec<T>::Decode(bytes);
+                     accept(message.sequence);
+                     handler(message.value);
                    });
   }
 
@@ -105,7 +106,7 @@ class Bus {
   const std::string& url() const;
 
  private:
-  using Accept = std::function<void(const messages::Header&)>;
+  using Accept = std::function<void(std::int64_t sequence)>;
   using Receiver = std::function<void(messages::Bytes, const Accept&)>;
   void SubscribeBytes(const std::string& channel, Delivery delivery, Receiver receiver);
   void PublishBytes(const std::string& channel, const std::vector<std::uint8_t>& bytes,

@@ -11,6 +11,8 @@
 namespace deixis::transport {
 namespace {
 
+constexpr int kDefaultPort = 7667;  // LCM's own.
+
 bool IsBoundTo(int descriptor, int port) {
   sockaddr_in address{};
   socklen_t length = sizeof(address);
@@ -30,7 +32,8 @@ int GrantedTo(int descriptor) {
 
 int GrantedReceiveBuffer(const std::string& network) {
   const auto colon = network.rfind(':');
-  const int port = colon == std::string::npos ? 7667 : std::atoi(network.c_str() + colon + 1);
+  const int port =
+      colon == std::string::npos ? kDefaultPort : std::atoi(network.c_str() + colon + 1);
   std::error_code ignored;
   int largest = 0;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", ignored)) {

@@ -6,7 +6,7 @@
 
 namespace deixis::transport {
 
-/// The last few hundred durations, for percentiles.
+/// The last 512 durations, for percentiles.
 class SampleWindow {
  public:
   void Add(double value_ms);

@@ -21,7 +21,7 @@ endif()
 include(GNUInstallDirs)
 
 # Flags that every target of ours gets. Plain x86-64 throughout: -march=native breaks Debian's PCL
-# (Eigen's alignment is part of its ABI); kernels choose their instruction set at run time instead.
+# (Eigen's alignment is part of its ABI), and one build serves every robot.
 add_library(deixis_flags INTERFACE)
 target_compile_options(deixis_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow

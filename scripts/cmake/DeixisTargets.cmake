@@ -1,5 +1,5 @@
-# Three functions that build everything: deixis_library, deixis_service, deixis_test (and
-# deixis_benchmark). deixis_message_library stands in DeixisMessages.cmake.
+# The functions that build everything: deixis_library, deixis_service, deixis_program, deixis_test,
+# deixis_benchmark. deixis_message_library stands in DeixisMessages.cmake.
 
 # deixis_library(NAME skin SRCS a.cpp KERNEL_SRCS k.cpp LINK_LIBS deixis::images PRIVATE_LIBS yaml-cpp)
 # makes target deixis_<NAME> with alias deixis::<NAME>. A library without sources is header-only.

@@ -6,6 +6,7 @@
 #include "common/logging/log.h"
 #include "common/messages/camera_calibration.h"
 #include "common/messages/image.h"
+#include "common/transport/channel_name.h"
 
 namespace deixis::camera_driver {
 namespace {
@@ -45,8 +46,9 @@ void Append(const std::string& part, std::string& text) {
 
 void CameraDriverServiceConfig::Validate() const {
   config::Faults faults;
-  faults.Require(!image_channel.empty(), "image_channel", "is empty; name a channel");
-  faults.Require(!calibration_channel.empty(), "calibration_channel", "is empty; name a channel");
+  const auto channel_faults = transport::ChannelFaults(
+      {{"image_channel", image_channel}, {"calibration_channel", calibration_channel}});
+  for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
   driver.Check(faults);
   faults.ThrowIfAny();
 }
@@ -59,12 +61,31 @@ program::StepResult CameraDriverService::Step() {
   const DriverOutput step = driver_.Next(Now<std::chrono::system_clock>());
   Publish(step);
   LogNews();
+  if (step.state == SourceState::kFinished) LogSummary();
   return ResultOf(step.state);
 }
 
 void CameraDriverService::Publish(const DriverOutput& step) {
   if (step.calibration) output_.Publish(config_.calibration_channel, *step.calibration);
-  if (step.picture) output_.Publish(config_.image_channel, *step.picture);
+  if (!step.picture) return;
+  output_.Publish(config_.image_channel, *step.picture);
+  ++published_;
+}
+
+void CameraDriverService::LogSummary() const {
+  const SourceStatus status = driver_.status();
+  if (published_ == 0) {
+    throw config::ConfigError("no picture of '" + config_.driver.source.path + "' can be read (" +
+                              std::to_string(status.corrupt) +
+                              " tried); set source.path to pictures that OpenCV can read");
+  }
+  if (status.corrupt == 0) {
+    logging::Info("recording_finished", {{"published", published_}});
+    return;
+  }
+  logging::Warn("recording_finished", {{"published", published_},
+                                       {"unreadable", status.corrupt},
+                                       {"last_unreadable", status.last_corrupt}});
 }
 
 void CameraDriverService::LogNews() {

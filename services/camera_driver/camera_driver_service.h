@@ -29,16 +29,19 @@ class CameraDriverService {
   CameraDriverService(const CameraDriverServiceConfig& config, transport::Bus& input,
                       transport::Bus& output);
 
+  /// Throws ConfigError at the end of a recording of which no picture could be read.
   program::StepResult Step();
   transport::Health health() const;
 
  private:
   void Publish(const DriverOutput& step);
   void LogNews();
+  void LogSummary() const;
 
   CameraDriverServiceConfig config_;
   transport::Bus& output_;
   CameraDriver driver_;
+  std::int64_t published_ = 0;  ///< Pictures.
   std::string logged_remark_;
   std::string logged_trouble_;
 };

@@ -6,19 +6,21 @@
 #include "common/messages/gesture_state.h"
 #include "common/messages/hands.h"
 #include "common/messages/objects.h"
+#include "common/transport/channel_name.h"
 
 namespace deixis::gesture_recogniser {
 
 void GestureRecogniserServiceConfig::Validate() const {
   config::Faults faults;
-  faults.Require(!hands_channel.empty(), "hands_channel", "is empty; name a channel");
-  faults.Require(!objects_channel.empty(), "objects_channel", "is empty; name a channel");
-  faults.Require(!calibration_channel.empty(), "calibration_channel", "is empty; name a channel");
-  faults.Require(!state_channel.empty(), "state_channel", "is empty; name a channel");
-  faults.Require(!gestures_channel.empty(), "gestures_channel", "is empty; name a channel");
+  const auto channel_faults =
+      transport::ChannelFaults({{"hands_channel", hands_channel},
+                                {"objects_channel", objects_channel},
+                                {"calibration_channel", calibration_channel},
+                                {"state_channel", state_channel},
+                                {"gestures_channel", gestures_channel}});
+  for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
   faults.Require(!models.empty(), "models", "must name at least one gesture model");
   faults.ThrowIfAny();
-  recogniser.Validate();
 }
 
 GestureRecogniserService::GestureRecogniserService(const GestureRecogniserServiceConfig& config,

@@ -10,12 +10,12 @@
 namespace deixis::gesture_recogniser {
 
 struct GestureRecogniserServiceConfig {
-  std::string hands_channel = "HAND_TRACKS";
-  std::string objects_channel = "OBJECTS";
-  std::string calibration_channel = "CAMERA_CALIBRATION";
-  std::string state_channel = "GESTURE_STATE";
-  std::string gestures_channel = "GESTURES";
-  std::vector<std::string> models{"approach", "rest"};  ///< Files config/gestures/<name>.yaml.
+  std::string hands_channel = "HAND_TRACKS";               ///< In: hand tracks.
+  std::string objects_channel = "OBJECTS";                 ///< In: objects and faces.
+  std::string calibration_channel = "CAMERA_CALIBRATION";  ///< In: the focal length.
+  std::string state_channel = "GESTURE_STATE";             ///< Out: what is thought of each hand.
+  std::string gestures_channel = "GESTURES";               ///< Out: decisions and their ends.
+  std::vector<std::string> models{"approach", "rest"};     ///< Files config/gestures/<name>.yaml.
   PointingRecogniserConfig recogniser;
 
   template <typename Visitor>

@@ -1,14 +1,17 @@
 #include "services/object_detector/object_detector_service.h"
 
+#include "common/logging/log.h"
 #include "common/messages/image.h"
 #include "common/messages/objects.h"
+#include "common/transport/channel_name.h"
 
 namespace deixis::object_detector {
 
 void ObjectDetectorServiceConfig::Validate() const {
   config::Faults faults;
-  faults.Require(!image_channel.empty(), "image_channel", "is empty; name a channel");
-  faults.Require(!objects_channel.empty(), "objects_channel", "is empty; name a channel");
+  const auto channel_faults = transport::ChannelFaults(
+      {{"image_channel", image_channel}, {"objects_channel", objects_channel}});
+  for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
   detectors.Check(faults);
   faults.ThrowIfAny();
 }
@@ -16,6 +19,10 @@ void ObjectDetectorServiceConfig::Validate() const {
 ObjectDetectorService::ObjectDetectorService(const ObjectDetectorServiceConfig& config,
                                              transport::Bus& input, transport::Bus& output)
     : detector_(config.detectors) {
+  if (!detector_.remark().empty()) {
+    logging::Warn("places",
+                  {{"file", config.detectors.places.file}, {"remark", detector_.remark()}});
+  }
   input.Subscribe<images::Image>(
       config.image_channel, transport::Delivery::kLatest,
       [this, &output, channel = config.objects_channel](const images::Image& image) {

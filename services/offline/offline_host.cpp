@@ -39,6 +39,15 @@ std::map<std::string, std::int64_t> PublishedOn(const transport::Bus& bus,
   return published;
 }
 
+std::set<std::string> UnheardOn(const transport::Bus& bus) {
+  std::set<std::string> unheard;
+  for (const auto& channel : bus.statistics()) {
+    const bool is_silent = channel.messages == 0 && channel.drops.empty();
+    if (channel.direction == messages::Direction::kIn && is_silent) unheard.insert(channel.channel);
+  }
+  return unheard;
+}
+
 }  // namespace
 
 OfflineHost::OfflineHost(const std::string& channel_prefix)
@@ -78,6 +87,7 @@ Summary OfflineHost::Run(LogReader& input, transport::Bus& output, OutputContent
   while (input.Next()) {
     const transport::RawMessage& event = input.event();
     ++summary.events_read;
+    summary.input_channels.insert(event.channel);
     report_progress(input.progress());
     if (event.channel == status_channel) continue;
     if (replaced_.count(event.channel) != 0) {
@@ -91,8 +101,13 @@ Summary OfflineHost::Run(LogReader& input, transport::Bus& output, OutputContent
     if (failure_) std::rethrow_exception(failure_);
   }
   output.Flush();
-  summary.unreadable_bytes = input.unreadable_bytes();
+  summary.nameless_events = input.nameless_events();
+  summary.input_bytes = input.size_bytes();
+  summary.damaged = input.damaged();
   summary.published = PublishedOn(bus_, replaced_);
+  for (const std::string& channel : UnheardOn(bus_)) {
+    if (replaced_.count(channel) == 0) summary.unheard_channels.insert(channel);
+  }
   summary.drops = DropsOf(bus_);
   return summary;
 }

@@ -24,8 +24,12 @@ class HostedService {
 /// What happened in a run.
 struct Summary {
   std::int64_t events_read = 0;
-  std::int64_t events_replaced = 0;   ///< Input on channels that a hosted service publishes itself.
-  std::int64_t unreadable_bytes = 0;  ///< At the end of the input.
+  std::int64_t events_replaced = 0;  ///< Input on channels that a hosted service publishes itself.
+  std::int64_t nameless_events = 0;  ///< Passed over since their channel has no name.
+  std::int64_t input_bytes = 0;      ///< Size of the input.
+  std::vector<DamagedPart> damaged;  ///< Parts of the input that were passed over.
+  std::set<std::string> input_channels;    ///< On the wire, as the input has them.
+  std::set<std::string> unheard_channels;  ///< What services listen to and the input has not.
   std::map<std::string, std::int64_t> published;  ///< Messages by channel.
   std::map<std::string, std::int64_t> drops;      ///< Refused messages by "channel: reason".
 };

@@ -1,7 +1,9 @@
 #include "services/viewer/picture_files.h"
 
 #include <cctype>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <vector>
 
 #include "common/config/config.h"
 
@@ -21,15 +23,25 @@ std::string FileNamePart(const std::string& label) {
   return part.empty() ? "none" : part;
 }
 
+// The file is closed before it is judged: a full disk shows only then.
+bool WritePng(const fs::path& file, const cv::Mat& bgr) {
+  std::vector<unsigned char> png;
+  if (!cv::imencode(".png", bgr, png)) return false;
+  std::ofstream out(file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  out.close();
+  return !out.fail();
+}
+
 }  // namespace
 
 PictureFiles::PictureFiles(const fs::path& folder) : folder_(folder) {
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (!fs::is_directory(folder_)) {
-    throw config::ConfigError("folder '" + folder_.string() + "' cannot be made: " +
-                              error.message() + "; set save_folder to one that can be written to");
-  }
+  std::error_code ignored;
+  if (fs::is_directory(folder_, ignored)) return;
+  throw config::ConfigError("save_folder '" + folder_.string() + "' cannot be made: " +
+                            error.message() + "; set save_folder to one that can be written to");
 }
 
 void PictureFiles::WriteGesture(const scene::Gesture& gesture, const cv::Mat& bgr) const {
@@ -41,13 +53,15 @@ void PictureFiles::WriteGesture(const scene::Gesture& gesture, const cv::Mat& bg
 void PictureFiles::WriteLatest(const cv::Mat& bgr) const { Write("latest.png", bgr); }
 
 void PictureFiles::Write(const std::string& name, const cv::Mat& bgr) const {
-  const fs::path unfinished = folder_ / ("." + name + ".part.png");
+  const fs::path unfinished = folder_ / ("." + name + ".part");
   std::error_code error;
-  if (cv::imwrite(unfinished.string(), bgr)) fs::rename(unfinished, folder_ / name, error);
-  if (error || !fs::exists(folder_ / name)) {
-    throw config::ConfigError("picture '" + (folder_ / name).string() +
-                              "' cannot be written; free some space or set save_folder");
-  }
+  const bool is_written = WritePng(unfinished, bgr);
+  if (is_written) fs::rename(unfinished, folder_ / name, error);
+  if (is_written && !error) return;
+  std::error_code ignored;
+  fs::remove(unfinished, ignored);
+  throw PictureNotWritten("picture '" + (folder_ / name).string() +
+                          "' cannot be written; free some space or set save_folder");
 }
 
 }  // namespace deixis::viewer

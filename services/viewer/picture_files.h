@@ -1,17 +1,24 @@
 #pragma once
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
-#include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "common/scene/gesture.h"
 
 namespace deixis::viewer {
 
-/// Writes pictures to a folder: one per gesture, and the latest one. Throws ConfigError when the
-/// folder cannot be made or written to.
+/// A picture that is lost. The message says which and what to do.
+class PictureNotWritten : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes pictures to a folder: one per gesture, and the latest one. A picture that cannot be
+/// written whole leaves nothing behind and throws PictureNotWritten.
 class PictureFiles {
  public:
+  /// Throws ConfigError when the folder cannot be made.
   explicit PictureFiles(const std::filesystem::path& folder);
 
   /// gesture_<event>_<label>_<time in microseconds>.png

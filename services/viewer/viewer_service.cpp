@@ -8,6 +8,7 @@
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
 #include "common/messages/objects.h"
+#include "common/transport/channel_name.h"
 #include "services/viewer/core/overlay.h"
 #include "services/viewer/window.h"
 
@@ -17,12 +18,12 @@ using transport::Delivery;
 
 void ViewerServiceConfig::Validate() const {
   config::Faults faults;
-  const std::string unnamed = "is empty; name a channel";
-  faults.Require(!image_channel.empty(), "image_channel", unnamed);
-  faults.Require(!objects_channel.empty(), "objects_channel", unnamed);
-  faults.Require(!hands_channel.empty(), "hands_channel", unnamed);
-  faults.Require(!state_channel.empty(), "state_channel", unnamed);
-  faults.Require(!gestures_channel.empty(), "gestures_channel", unnamed);
+  const auto channel_faults = transport::ChannelFaults({{"image_channel", image_channel},
+                                                        {"objects_channel", objects_channel},
+                                                        {"hands_channel", hands_channel},
+                                                        {"state_channel", state_channel},
+                                                        {"gestures_channel", gestures_channel}});
+  for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
   faults.Require(latest_period_s >= 0.0, "latest_period_s", "must not be negative");
   history.Check(faults);
   faults.ThrowIfAny();
@@ -53,13 +54,12 @@ void ViewerService::Collect(transport::Bus& input, const std::string& channel, D
 }
 
 void ViewerService::OnGesture(const scene::Gesture& gesture) {
+  // The same event comes a second time when the gesture ends, which is no news.
+  if (gesture.end.microseconds != 0) return;
   history_.Add(gesture);
-  // The same event comes a second time when the gesture ends.
-  const bool is_new = gesture.end.microseconds == 0 || gesture.event_id != last_event_;
-  last_event_ = gesture.event_id;
-  if (!files_ || !is_new) return;
+  if (!files_) return;
   if (const auto scene = history_.At(gesture.time)) {
-    files_->WriteGesture(gesture, DrawOverlay(*scene));
+    Save([&] { files_->WriteGesture(gesture, DrawOverlay(*scene)); });
   }
 }
 
@@ -71,8 +71,20 @@ void ViewerService::ShowWhatIsReady() {
   const cv::Mat picture = DrawOverlay(*scene);
   if (config_.window) ShowInWindow(picture);
   if (!is_latest_due) return;
-  files_->WriteLatest(picture);
   latest_written_ = scene->image.time;
+  Save([&] { files_->WriteLatest(picture); });
+}
+
+/// Says once, not with every picture, that pictures are lost.
+template <typename Write>
+void ViewerService::Save(Write write) {
+  try {
+    write();
+    trouble_.clear();
+  } catch (const PictureNotWritten& loss) {
+    if (trouble_.empty()) logging::Warn("picture_not_written", {{"reason", loss.what()}});
+    trouble_ = loss.what();
+  }
 }
 
 bool ViewerService::IsLatestDue(Timestamp time) const {

@@ -1,24 +1,24 @@
 #pragma once
-#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "common/transport/bus.h"
+#include "common/transport/status_reporter.h"
 #include "services/viewer/core/scene_history.h"
 #include "services/viewer/picture_files.h"
 
 namespace deixis::viewer {
 
 struct ViewerServiceConfig {
-  std::string image_channel = "CAMERA";
-  std::string objects_channel = "OBJECTS";
-  std::string hands_channel = "HAND_TRACKS";
-  std::string state_channel = "GESTURE_STATE";
-  std::string gestures_channel = "GESTURES";
-  std::string save_folder;       ///< Pictures are written here; empty = none.
-  double latest_period_s = 1.0;  ///< How often latest.png is written; 0 = never.
-  bool window = false;           ///< Shows the pictures in a window.
-  SceneHistoryConfig history;    ///< How pictures and results are put together.
+  std::string image_channel = "CAMERA";         ///< Pictures to draw on (in, like all of these).
+  std::string objects_channel = "OBJECTS";      ///< Objects and faces.
+  std::string hands_channel = "HAND_TRACKS";    ///< Hand tracks.
+  std::string state_channel = "GESTURE_STATE";  ///< What is thought of each hand.
+  std::string gestures_channel = "GESTURES";    ///< Decisions.
+  std::string save_folder;                      ///< Pictures are written here; empty = none.
+  double latest_period_s = 1.0;                 ///< How often latest.png is written; 0 = never.
+  bool window = false;                          ///< Shows the pictures in a window.
+  SceneHistoryConfig history;                   ///< How pictures and results are put together.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -41,18 +41,23 @@ class ViewerService {
   /// Throws ConfigError when there is no display for the window or no folder for the pictures.
   ViewerService(const ViewerServiceConfig& config, transport::Bus& input, transport::Bus& output);
 
+  /// Degraded while pictures cannot be written.
+  transport::Health health() const { return {!trouble_.empty(), trouble_}; }
+
  private:
   template <typename Message>
   void Collect(transport::Bus& input, const std::string& channel, transport::Delivery delivery);
   void OnGesture(const scene::Gesture& gesture);
   void ShowWhatIsReady();
   bool IsLatestDue(Timestamp time) const;
+  template <typename Write>
+  void Save(Write write);
 
   ViewerServiceConfig config_;
   SceneHistory history_;
   std::optional<PictureFiles> files_;
   std::optional<Timestamp> latest_written_;
-  std::int64_t last_event_ = 0;
+  std::string trouble_;  ///< Why the last picture could not be written; empty = it was.
 };
 
 }  // namespace deixis::viewer

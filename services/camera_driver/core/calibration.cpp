@@ -1,7 +1,10 @@
 #include "services/camera_driver/core/calibration.h"
 
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/core.hpp>
 
 namespace deixis::camera_driver {
@@ -18,10 +21,22 @@ constexpr std::size_t kRationalValues = 8;
   throw config::ConfigError(path + ": " + fault);
 }
 
-cv::FileStorage OpenStorage(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) {
+void RequireReadableFile(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
     Fail(path, "calibration file does not exist; set calibration.file, or leave it empty to guess");
   }
+  errno = 0;
+  std::ifstream file(path);
+  file.peek();
+  if (!file.is_open() || file.bad()) {
+    Fail(path, std::string("calibration file cannot be read: ") + std::strerror(errno) +
+                   "; check its rights");
+  }
+}
+
+cv::FileStorage OpenStorage(const std::string& path) {
+  RequireReadableFile(path);
   try {
     cv::FileStorage storage(path, cv::FileStorage::READ);
     if (storage.isOpened()) return storage;
@@ -53,20 +68,27 @@ cv::Mat ReadMatrix(const cv::FileStorage& storage, const std::string& path, cons
   return matrix;
 }
 
-void ReadPinhole(const cv::Mat& matrix, const std::string& path, CameraCalibration& calibration) {
+struct Pinhole {
+  Eigen::Vector2d focal_px;
+  Eigen::Vector2d principal_point_px;
+};
+
+Pinhole ToPinhole(const cv::Mat& matrix, const std::string& path) {
   if (matrix.rows != 3 || matrix.cols != 3) {
     Fail(path, "camera_matrix (or M1) must be 3x3 but is " + std::to_string(matrix.rows) + "x" +
                    std::to_string(matrix.cols));
   }
-  calibration.focal_px = {matrix.at<double>(0, 0), matrix.at<double>(1, 1)};
-  calibration.principal_point_px = {matrix.at<double>(0, 2), matrix.at<double>(1, 2)};
-  if (calibration.focal_px.minCoeff() <= 0.0) {
+  const Pinhole pinhole{{matrix.at<double>(0, 0), matrix.at<double>(1, 1)},
+                        {matrix.at<double>(0, 2), matrix.at<double>(1, 2)}};
+  if (pinhole.focal_px.minCoeff() <= 0.0) {
     Fail(path, "camera_matrix (or M1) has a focal length that is not positive; calibrate again");
   }
+  return pinhole;
 }
 
-/// Cuts or fills `values` to what the lens model takes; what is cut must be zero.
-void FitTo(std::size_t count, const std::string& path, std::vector<double>& values) {
+/// `values` cut or filled to what the lens model takes; what is cut must be zero.
+std::vector<double> FittedTo(std::size_t count, std::vector<double> values,
+                             const std::string& path) {
   for (std::size_t i = count; i < values.size(); ++i) {
     if (values[i] != 0.0) {
       Fail(path, "distortion has " + std::to_string(values.size()) +
@@ -74,25 +96,29 @@ void FitTo(std::size_t count, const std::string& path, std::vector<double>& valu
     }
   }
   values.resize(count, 0.0);
+  return values;
 }
 
-void ReadDistortion(const cv::Mat& matrix, bool is_fisheye, const std::string& path,
-                    CameraCalibration& calibration) {
-  std::vector<double> values(matrix.begin<double>(), matrix.end<double>());
+struct Distortion {
+  DistortionModel model;
+  std::vector<double> values;
+};
+
+/// OpenCV's two families of lenses.
+enum class Lens { kPinhole, kFisheye };
+
+Distortion ToDistortion(const cv::Mat& matrix, Lens lens, const std::string& path) {
+  const std::vector<double> values(matrix.begin<double>(), matrix.end<double>());
+  const bool is_fisheye = lens == Lens::kFisheye;
   const bool is_vector = matrix.rows == 1 || matrix.cols == 1;
   if (!is_vector || values.size() < 4 || (is_fisheye && values.size() != 4)) {
     Fail(path, "distortion_coefficients (or D1) must be one row of 4, 5 or 8 values (fisheye: 4)");
   }
-  if (is_fisheye) {
-    calibration.distortion_model = DistortionModel::kFisheye;
-  } else if (values.size() <= kPlumbBobValues) {
-    calibration.distortion_model = DistortionModel::kPlumbBob;
-    FitTo(kPlumbBobValues, path, values);
-  } else {
-    calibration.distortion_model = DistortionModel::kRational;
-    FitTo(kRationalValues, path, values);
+  if (is_fisheye) return {DistortionModel::kFisheye, values};
+  if (values.size() <= kPlumbBobValues) {
+    return {DistortionModel::kPlumbBob, FittedTo(kPlumbBobValues, values, path)};
   }
-  calibration.distortion = values;
+  return {DistortionModel::kRational, FittedTo(kRationalValues, values, path)};
 }
 
 int ReadSize(const cv::FileStorage& storage, const std::string& path, const std::string& key) {
@@ -152,10 +178,15 @@ LensFile ReadLensFile(const std::string& path) {
   LensFile lens;
   lens.path = path;
   CameraCalibration& calibration = lens.calibration;
-  ReadPinhole(ReadMatrix(storage, path, "camera_matrix", "M1"), path, calibration);
+  const Pinhole pinhole = ToPinhole(ReadMatrix(storage, path, "camera_matrix", "M1"), path);
+  calibration.focal_px = pinhole.focal_px;
+  calibration.principal_point_px = pinhole.principal_point_px;
   const bool is_fisheye = static_cast<int>(storage["fisheye_model"]) == 1;
-  ReadDistortion(ReadMatrix(storage, path, "distortion_coefficients", "D1"), is_fisheye, path,
-                 calibration);
+  const Distortion distortion =
+      ToDistortion(ReadMatrix(storage, path, "distortion_coefficients", "D1"),
+                   is_fisheye ? Lens::kFisheye : Lens::kPinhole, path);
+  calibration.distortion_model = distortion.model;
+  calibration.distortion = distortion.values;
   calibration.width_px = ReadSize(storage, path, "image_width");
   calibration.height_px = ReadSize(storage, path, "image_height");
   calibration.is_calibrated = true;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/config/plain_text.h"
+
 namespace deixis::camera_driver {
 namespace {
 
@@ -11,9 +13,10 @@ constexpr double kCalibrationPeriod_s = 1.0;
 }  // namespace
 
 void CameraDriverConfig::Check(config::Faults& faults) const {
-  faults.Require(!camera.empty(), "camera", "is empty; name the camera");
-  faults.Require(start_time_utime >= -1, "start_time_utime",
-                 "must be -1 (chosen by the pace) or a time in microseconds");
+  faults.Require(config::IsPlainText(camera), "camera", config::kPlainTextRule);
+  faults.Require(start_time_utime >= -1 && start_time_utime <= kLatestTime.microseconds,
+                 "start_time_utime",
+                 "must be -1 (chosen by the pace) or a time in microseconds, 2^59 at most");
   source.Check(faults);
   calibration.Check(faults);
   image.Check(faults);

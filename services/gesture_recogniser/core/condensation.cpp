@@ -6,24 +6,20 @@
 
 #include "common/filtering/resampling.h"
 #include "services/gesture_recogniser/core/decision.h"
+#include "services/gesture_recogniser/core/index.h"
 
 namespace deixis::gesture_recogniser {
-namespace {
 
-std::size_t Index(int value) { return static_cast<std::size_t>(value); }
-
-float UniformFrom(std::uint64_t bits) { return static_cast<float>(bits >> 40) * 0x1p-24F; }
-
-}  // namespace
+using filtering::CounterRandom;
 
 void CondensationConfig::Validate() const {
   config::Faults faults;
-  faults.Require(samples >= 1 && samples <= 10000000, "samples", "must lie between 1 and 1e7");
+  faults.Require(samples >= 1 && samples <= 1000000, "samples", "must lie between 1 and 1000000");
   faults.Require(scale_min > 0.0, "scale_min", "must be positive");
   faults.Require(scale_max >= scale_min, "scale_max", "must not be below scale_min");
   faults.Require(scale_sigma >= 0.0, "scale_sigma", "must not be negative");
   faults.Require(phase_sigma_s >= 0.0, "phase_sigma_s", "must not be negative");
-  faults.Require(window_s > 0.0, "window_s", "must be positive");
+  faults.Require(window_s > 0.0 && window_s <= 10.0, "window_s", "must lie in (0, 10]");
   faults.Require(p_missing >= 0.0 && p_missing <= 1.0, "p_missing", "must lie in [0, 1]");
   faults.Require(end_phase > 0.0 && end_phase < 1.0, "end_phase", "must lie in (0, 1)");
   faults.Require(end_threshold > 0.0 && end_threshold < 1.0, "end_threshold", "must lie in (0, 1)");
@@ -71,7 +67,7 @@ const Assessment& Condensation::Observe(const Motion& motion, const Surroundings
 void Condensation::Restart() {
   for (std::size_t n = 0; n < samples_.size(); ++n) {
     Initialise(n);
-    samples_.phase_s[n] = UniformFrom(Draw()) * table_.Duration(samples_.model[n]);
+    samples_.phase_s[n] = CounterRandom::UniformFrom(Draw()) * table_.Duration(samples_.model[n]);
     samples_.weight[n] = 1.0F;
   }
   is_armed_ = true;
@@ -80,15 +76,16 @@ void Condensation::Restart() {
 // Black and Jepson 1998: all models alike, phases near the beginning, scales uniform.
 void Condensation::Initialise(std::size_t sample) {
   const auto models = static_cast<float>(table_.size());
-  const int model = std::min(static_cast<int>(UniformFrom(Draw()) * models), table_.size() - 1);
-  const float root = std::sqrt(std::max(UniformFrom(Draw()), 1e-4F));
+  const int model =
+      std::min(static_cast<int>(CounterRandom::UniformFrom(Draw()) * models), table_.size() - 1);
+  const float root = std::sqrt(std::max(CounterRandom::UniformFrom(Draw()), 1e-4F));
   const float begin_s = (1.0F - root) / root * static_cast<float>(step_s_);
   const auto low = static_cast<float>(config_.scale_min);
   const auto range = static_cast<float>(config_.scale_max - config_.scale_min);
   samples_.model[sample] = model;
   samples_.phase_s[sample] = std::min(begin_s, table_.Duration(model));
-  samples_.amplitude[sample] = low + range * UniformFrom(Draw());
-  samples_.rate[sample] = low + range * UniformFrom(Draw());
+  samples_.amplitude[sample] = low + range * CounterRandom::UniformFrom(Draw());
+  samples_.rate[sample] = low + range * CounterRandom::UniformFrom(Draw());
   samples_.bound[sample] = -1;
 }
 
@@ -110,7 +107,8 @@ void Condensation::FollowTargets(const std::vector<Target>& targets) {
 }
 
 void Condensation::Select() {
-  if (!filtering::ResampleSystematically(samples_.weight, UniformFrom(Draw()), ancestors_)) {
+  if (!filtering::ResampleSystematically(samples_.weight, CounterRandom::UniformFrom(Draw()),
+                                         ancestors_)) {
     Restart();
     return;
   }
@@ -127,7 +125,6 @@ void Condensation::Predict(double elapsed_s, double step_s) {
   const auto low = static_cast<float>(config_.scale_min);
   const auto high = static_cast<float>(config_.scale_max);
   const auto elapsed = static_cast<float>(elapsed_s);
-  using filtering::CounterRandom;
   for (std::size_t n = 0; n < samples_.size(); ++n) {
     float& amplitude = samples_.amplitude[n];
     float& rate = samples_.rate[n];
@@ -187,7 +184,8 @@ void Condensation::ApplyContext(std::size_t sample) {
     is_missing = bound >= kMostTargets || (inside >> static_cast<unsigned>(bound) & 1U) == 0;
   } else if (inside != 0) {
     const int count = Count(inside);
-    const auto rank = static_cast<int>(UniformFrom(Draw()) * static_cast<float>(count));
+    const auto rank =
+        static_cast<int>(CounterRandom::UniformFrom(Draw()) * static_cast<float>(count));
     bound = Pick(inside, std::min(rank, count - 1));
   } else {
     is_missing = config_.unbound_is_missing;

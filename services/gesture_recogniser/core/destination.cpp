@@ -13,11 +13,19 @@ constexpr double kUpperArm_m = 0.28;           // Shoulder to elbow.
 constexpr double kForearm_m = 0.31;            // Elbow to the hand's centre.
 constexpr double kShoulderBelowFace_m = 0.08;  // Image plane, a person who faces the camera.
 constexpr double kShoulderAside_m = 0.13;
+// Log-odds against a return to rest by a way that leads away from it.
+constexpr double kLeavesRest_log_odds = 6.0;
+// A way shorter than this share of its sigma counts as so long: its direction is any.
+constexpr double kShortestWay_sigmas = 0.2;
+constexpr double kRootOfTwoPi = 2.5;  // Rounded: integral of a normal density of height 1.
 
 /// Area of the ring that a normal density of spread `sigma` at distance `gap` around a box covers.
 double LogRing(const scene::Box& box_m, double gap_m) {
   return std::log(2.0 * (box_m.width_px + box_m.height_px) + kTwoPi * gap_m);
 }
+
+/// Log-density of a direction that may be any.
+const double kAnyDirection = -std::log(kTwoPi);
 
 double AngleBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
@@ -58,39 +66,47 @@ void DestinationConfig::Validate() const {
   faults.Require(stray_share > 0.0 && stray_share < 1.0, "stray_share", "must lie in (0, 1)");
   faults.Require(rest_return_m >= 0.0, "rest_return_m", "must not be negative");
   faults.Require(elbow_sag >= 0.0 && elbow_sag <= 1.0, "elbow_sag", "must lie in [0, 1]");
-  faults.Require(arrival_s > 0.0, "arrival_s", "must be positive");
+  faults.Require(arrival_s > 0.0 && arrival_s <= 10.0, "arrival_s", "must lie in (0, 10]");
   faults.ThrowIfAny();
 }
 
 Destinations::Destinations(const DestinationConfig& config, const TargetStatistics& statistics)
     : config_(config), statistics_(statistics) {}
 
-void Destinations::Judge(const Arrival& arrival, const Surroundings& surroundings,
-                         const std::optional<Eigen::Vector2d>& rest_m, scene::Side side,
-                         DestinationDensities& densities) const {
-  const double anywhere = -std::log(kTwoPi);
-  densities.target.clear();
-  const double way_error =
-      std::atan2(arrival.way_sigma_m, std::max(arrival.way_m.norm(), 0.2 * arrival.way_sigma_m));
-  const double way_sigma = std::hypot(statistics_.direction_spread_rad, way_error);
-  const double share =
-      1.0 / static_cast<double>(std::max<std::size_t>(surroundings.targets.size(), 1));
-  const bool has_posture = config_.use_posture && surroundings.face_m;
-  for (const Target& target : surroundings.targets) {
-    const Eigen::Vector2d direction = scene::Centre(target.box_m) - arrival.position_m;
-    double density = std::log(share) + LogGap(target.box_m, arrival) +
-                     LogDirection(direction, way_sigma, arrival.way_m);
-    if (has_posture) {
-      const Eigen::Vector2d arm = ForearmDirection(ShoulderFromFace(*surroundings.face_m, side),
-                                                   arrival.position_m, config_.elbow_sag);
-      density += LogDirection(direction, statistics_.posture_spread_rad, arm) - anywhere;
-    }
-    densities.target.push_back(density);
+DestinationDensities Destinations::Judge(const Arrival& arrival, const Surroundings& surroundings,
+                                         const std::optional<Eigen::Vector2d>& rest_m,
+                                         scene::Side side) const {
+  const auto& face_m = surroundings.face_m;
+  const auto targets = std::max<std::size_t>(surroundings.targets.size(), 1);
+  Approach approach{arrival, WaySigma(arrival), std::log(1.0 / static_cast<double>(targets)), {}};
+  if (config_.use_posture && face_m) {
+    approach.forearm =
+        ForearmDirection(ShoulderFromFace(*face_m, side), arrival.position_m, config_.elbow_sag);
   }
-  densities.elsewhere = std::log(config_.elsewhere_weight / config_.reach_m2) + anywhere;
-  densities.rest = rest_m ? LogRest(arrival, *rest_m) + anywhere : kImpossible;
-  densities.face =
-      surroundings.face_m ? LogFace(arrival, *surroundings.face_m) + anywhere : kImpossible;
+  DestinationDensities densities;
+  for (const Target& target : surroundings.targets) {
+    densities.target.push_back(LogTarget(approach, target.box_m));
+  }
+  densities.elsewhere = std::log(config_.elsewhere_weight / config_.reach_m2) + kAnyDirection;
+  densities.rest = rest_m ? LogRest(arrival, *rest_m) + kAnyDirection : kImpossible;
+  densities.face = face_m ? LogFace(arrival, *face_m) + kAnyDirection : kImpossible;
+  return densities;
+}
+
+double Destinations::LogTarget(const Approach& approach, const scene::Box& box_m) const {
+  const Eigen::Vector2d direction = scene::Centre(box_m) - approach.arrival.position_m;
+  double density = approach.log_share + LogGap(box_m, approach.arrival) +
+                   LogDirection(direction, approach.way_sigma_rad, approach.arrival.way_m);
+  if (approach.forearm) {
+    density +=
+        LogDirection(direction, statistics_.posture_spread_rad, *approach.forearm) - kAnyDirection;
+  }
+  return density;
+}
+
+double Destinations::WaySigma(const Arrival& arrival) const {
+  const double length_m = std::max(arrival.way_m.norm(), kShortestWay_sigmas * arrival.way_sigma_m);
+  return std::hypot(statistics_.direction_spread_rad, std::atan2(arrival.way_sigma_m, length_m));
 }
 
 double Destinations::LogGap(const scene::Box& box_m, const Arrival& arrival) const {
@@ -111,14 +127,15 @@ double Destinations::LogRest(const Arrival& arrival, const Eigen::Vector2d& rest
   const double spread = std::hypot(config_.rest_spread_m, arrival.sigma_m);
   // What starts at rest does not return to it by going away from it.
   const bool returns = arrival.nearest_rest_m >= distance + config_.rest_return_m;
-  return std::log(config_.rest_weight) + LogPlaneNormal(distance, spread) - (returns ? 0.0 : 6.0);
+  return std::log(config_.rest_weight) + LogPlaneNormal(distance, spread) -
+         (returns ? 0.0 : kLeavesRest_log_odds);
 }
 
 double Destinations::LogFace(const Arrival& arrival, const scene::Box& face_m) const {
   const double spread = std::hypot(config_.face_spread_m, arrival.sigma_m);
   const double distance = scene::DistanceTo(face_m, arrival.position_m);
   const double area = face_m.width_px * face_m.height_px +
-                      2.5 * (face_m.width_px + face_m.height_px) * spread +
+                      kRootOfTwoPi * (face_m.width_px + face_m.height_px) * spread +
                       0.5 * kTwoPi * spread * spread;
   return std::log(config_.face_weight / area) - 0.5 * distance * distance / (spread * spread);
 }

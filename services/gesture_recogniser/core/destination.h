@@ -47,7 +47,6 @@ struct Arrival {
   double sigma_m = 0.0;                                  ///< Of that mean.
   Eigen::Vector2d way_m = Eigen::Vector2d::Zero();       ///< Last part of the way.
   double way_sigma_m = 0.0;                              ///< Of the way, per axis.
-  Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();    ///< Where the stroke began.
   double nearest_rest_m = 0.0;  ///< Distance to the rest place about the time when it began.
 };
 
@@ -74,12 +73,20 @@ class Destinations {
  public:
   Destinations(const DestinationConfig& config, const TargetStatistics& statistics);
 
-  /// Fills `densities` for an arrival.
-  void Judge(const Arrival& arrival, const Surroundings& surroundings,
-             const std::optional<Eigen::Vector2d>& rest_m, scene::Side side,
-             DestinationDensities& densities) const;
+  DestinationDensities Judge(const Arrival& arrival, const Surroundings& surroundings,
+                             const std::optional<Eigen::Vector2d>& rest_m, scene::Side side) const;
 
  private:
+  /// What of an arrival is the same for every target.
+  struct Approach {
+    const Arrival& arrival;
+    double way_sigma_rad = 0.0;              ///< Of the way's direction.
+    double log_share = 0.0;                  ///< Prior of each target.
+    std::optional<Eigen::Vector2d> forearm;  ///< Its direction; nothing = not known.
+  };
+
+  double LogTarget(const Approach& approach, const scene::Box& box_m) const;
+  double WaySigma(const Arrival& arrival) const;
   double LogGap(const scene::Box& box_m, const Arrival& arrival) const;
   double LogDirection(const Eigen::Vector2d& direction, double sigma_rad,
                       const Eigen::Vector2d& way) const;

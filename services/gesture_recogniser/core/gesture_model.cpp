@@ -6,6 +6,11 @@
 namespace deixis::gesture_recogniser {
 namespace {
 
+constexpr double kLongest_s = 10.0;  // As long as a motion can be kept.
+// A stroke speeds up and slows down: with fewer points, straight lines between them lose its shape.
+constexpr std::size_t kFewestPoints = 8;
+constexpr std::size_t kMostPoints = 1000;
+
 void Check(const ModelPoint& point, const std::string& key, config::Faults& faults) {
   faults.Require(point.speed_m_per_s >= 0.0, key + ".speed_m_per_s", "must not be negative");
   faults.Require(point.speed_spread_m_per_s > 0.0, key + ".speed_spread_m_per_s",
@@ -57,9 +62,11 @@ std::string NameOf(ContextNeed need) {
 void GestureModel::Validate() const {
   config::Faults faults;
   faults.Require(!name.empty(), "name", "must not be empty");
-  faults.Require(duration_s > 0.0, "duration_s", "must be positive");
-  faults.Require(points.size() >= 2, "points", "must be at least two");
-  faults.Require(stroke.duration_spread_s > 0.0, "stroke.duration_spread_s", "must be positive");
+  faults.Require(duration_s > 0.0 && duration_s <= kLongest_s, "duration_s", "must lie in (0, 10]");
+  faults.Require(points.size() >= kFewestPoints && points.size() <= kMostPoints, "points",
+                 "must be 8 to 1000: a file that was cut off describes no motion");
+  faults.Require(stroke.duration_spread_s > 0.0 && stroke.duration_spread_s <= kLongest_s,
+                 "stroke.duration_spread_s", "must lie in (0, 10]");
   faults.Require(stroke.peak_speed_m_per_s > 0.0, "stroke.peak_speed_m_per_s", "must be positive");
   faults.Require(stroke.peak_speed_log_spread > 0.0, "stroke.peak_speed_log_spread",
                  "must be positive");
@@ -76,7 +83,11 @@ void GestureModel::Validate() const {
 std::vector<GestureModel> LoadModels(const std::vector<std::string>& names) {
   std::vector<GestureModel> models;
   for (const std::string& name : names) {
-    models.push_back(config::Load<GestureModel>(config::FindConfig("gestures/" + name + ".yaml")));
+    const auto file = config::FindConfig("gestures/" + name + ".yaml");
+    models.push_back(config::Load<GestureModel>(file));
+    if (models.back().name == file.stem()) continue;
+    throw config::ConfigError(file.string() + ": 'name' is '" + models.back().name +
+                              "'; it must be that of the file");
   }
   return models;
 }

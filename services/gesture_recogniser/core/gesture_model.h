@@ -60,10 +60,10 @@ struct StrokeStatistics {
 struct TargetStatistics {
   double gap_m = 0.2;          ///< From the hand's centre to the object's box.
   double gap_spread_m = 0.05;  ///< Its standard deviation.
-  double direction_spread_rad =
-      0.4;  ///< Between the last part of the way and the object's direction.
-  double posture_spread_rad =
-      0.4;  ///< Between the line shoulder to hand and the object's direction.
+  /// Between the last part of the way and the object's direction.
+  double direction_spread_rad = 0.4;
+  /// Between the forearm's direction, guessed from face and hand, and the object's.
+  double posture_spread_rad = 0.4;
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -98,7 +98,8 @@ struct GestureModel {
   void Validate() const;  ///< Throws ConfigError.
 };
 
-/// Reads `gestures/<name>.yaml` for every name, searched as all configuration. Throws ConfigError.
+/// Reads `gestures/<name>.yaml` for every name, searched as all configuration. Throws ConfigError,
+/// also when the name in a file is not the file's.
 std::vector<GestureModel> LoadModels(const std::vector<std::string>& names);
 
 /// The model as its YAML file.

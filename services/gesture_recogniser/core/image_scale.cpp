@@ -4,19 +4,25 @@
 #include <cmath>
 #include <limits>
 
+#include "services/gesture_recogniser/core/forgetting.h"
+
 namespace deixis::gesture_recogniser {
 
 void ImageScaleConfig::Validate() const {
   config::Faults faults;
-  faults.Require(face_height_m > 0.0, "face_height_m", "must be positive");
-  faults.Require(assumed_distance_m > 0.0, "assumed_distance_m", "must be positive");
-  faults.Require(fixed_px_per_m > 0.0, "fixed_px_per_m", "must be positive");
+  faults.Require(face_height_m >= 0.01 && face_height_m <= 10.0, "face_height_m",
+                 "must lie in [0.01, 10]");
+  faults.Require(assumed_distance_m >= 0.1 && assumed_distance_m <= 1000.0, "assumed_distance_m",
+                 "must lie in [0.1, 1000]");
+  faults.Require(fixed_px_per_m >= 0.1 && fixed_px_per_m <= 1e6, "fixed_px_per_m",
+                 "must lie in [0.1, 1e6]");
   faults.Require(smoothing_s >= 0.0, "smoothing_s", "must not be negative");
   faults.Require(face_memory_s >= 0.0, "face_memory_s", "must not be negative");
   faults.ThrowIfAny();
 }
 
 void ImageScale::Observe(const scene::Objects& objects) {
+  ForgetOlder(faces_, objects.time, config_.face_memory_s);
   for (const scene::Object& object : objects.objects) {
     if (object.kind != scene::ObjectKind::kFace || !object.box || object.box->height_px <= 0.0) {
       continue;
@@ -48,6 +54,11 @@ std::optional<KnownFace> ImageScale::FaceOf(const scene::Hand& hand, Timestamp n
     }
   }
   return nearest;
+}
+
+scene::Box InMetres(const scene::Box& box, double px_per_m) {
+  return {box.x_px / px_per_m, box.y_px / px_per_m, box.width_px / px_per_m,
+          box.height_px / px_per_m};
 }
 
 double ImageScale::PixelsPerMetre(const std::optional<KnownFace>& face) const {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <map>
 #include <optional>
 
@@ -48,6 +49,9 @@ struct KnownFace {
   Timestamp last_seen;
 };
 
+/// A box as it measures at the person's distance: the result's fields hold metres.
+scene::Box InMetres(const scene::Box& box, double px_per_m);
+
 /// Remembers faces, says which one belongs to a hand, and how many pixels a metre has at the
 /// person.
 class ImageScale {
@@ -61,6 +65,7 @@ class ImageScale {
   /// The face of the hand's person, else the nearest one; nothing when none is known at `now`.
   std::optional<KnownFace> FaceOf(const scene::Hand& hand, Timestamp now) const;
   double PixelsPerMetre(const std::optional<KnownFace>& face) const;
+  std::size_t known_faces() const { return faces_.size(); }
 
  private:
   ImageScaleConfig config_;

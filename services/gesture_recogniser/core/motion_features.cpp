@@ -3,23 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/gesture_recogniser/core/log_probability.h"
+
 namespace deixis::gesture_recogniser {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double Heading(const Eigen::Vector2d& step) { return std::atan2(step.y(), step.x()); }
 
 }  // namespace
 
 double WrapAngle(double angle_rad) {
-  const double wrapped = std::remainder(angle_rad, 2.0 * kPi);
-  return wrapped <= -kPi ? kPi : wrapped;
+  const double wrapped = std::remainder(angle_rad, kTwoPi);
+  return wrapped <= -0.5 * kTwoPi ? 0.5 * kTwoPi : wrapped;
 }
 
 void MotionConfig::Validate() const {
   config::Faults faults;
-  faults.Require(step_s > 0.0 && step_s <= 0.2, "step_s", "must lie in (0, 0.2]");
+  faults.Require(step_s >= 0.01 && step_s <= 0.2, "step_s", "must lie in [0.01, 0.2]");
   faults.Require(history_s >= 10.0 * step_s && history_s <= 10.0, "history_s",
                  "must lie between 10 steps and 10 s");
   faults.Require(longest_gap_s >= step_s, "longest_gap_s", "must be at least one step");
@@ -72,19 +72,22 @@ void MotionHistory::SamplePositions(double px_per_m) {
   std::size_t older = 0;
   for (int i = 0; i <= steps; ++i) {
     const double age_s = i * config_.step_s;
-    const auto age_of = [this](std::size_t k) {
-      return SecondsBetween(points_[k].time, points_.front().time);
-    };
-    while (older + 1 < points_.size() && age_of(older) < age_s) ++older;
-    const std::size_t newer = older > 0 ? older - 1 : 0;
-    const double span_s = age_of(older) - age_of(newer);
-    const double share =
-        span_s > 0.0 ? std::clamp((age_s - age_of(newer)) / span_s, 0.0, 1.0) : 0.0;
-    motion_.position_m.emplace_back(
-        ((1.0 - share) * points_[newer].position_px + share * points_[older].position_px) /
-        px_per_m);
-    motion_.is_measured.push_back(points_[share > 0.5 ? older : newer].is_measured);
+    while (older + 1 < points_.size() && Age(older) < age_s) ++older;
+    SampleBetween(older > 0 ? older - 1 : 0, older, age_s, px_per_m);
   }
+}
+
+void MotionHistory::SampleBetween(std::size_t newer, std::size_t older, double age_s,
+                                  double px_per_m) {
+  const double span_s = Age(older) - Age(newer);
+  const double share = span_s > 0.0 ? std::clamp((age_s - Age(newer)) / span_s, 0.0, 1.0) : 0.0;
+  motion_.position_m.emplace_back(
+      ((1.0 - share) * points_[newer].position_px + share * points_[older].position_px) / px_per_m);
+  motion_.is_measured.push_back(points_[share > 0.5 ? older : newer].is_measured);
+}
+
+double MotionHistory::Age(std::size_t point) const {
+  return SecondsBetween(points_[point].time, points_.front().time);
 }
 
 void MotionHistory::Differentiate() {

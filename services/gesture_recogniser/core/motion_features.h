@@ -12,7 +12,7 @@ namespace deixis::gesture_recogniser {
 struct MotionConfig {
   double step_s = 1.0 / 15.0;  ///< Time between two samples of the motion, whatever the frame rate.
   double history_s = 2.4;      ///< How far back the motion is kept.
-  double longest_gap_s = 0.5;  ///< A longer gap between images starts the motion anew.
+  double longest_gap_s = 0.6;  ///< A longer gap between images starts the motion anew.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -69,6 +69,9 @@ class MotionHistory {
  private:
   void ForgetPredictions();
   void SamplePositions(double px_per_m);
+  /// Adds the position `age_s` ago, on the straight way between two points.
+  void SampleBetween(std::size_t newer, std::size_t older, double age_s, double px_per_m);
+  double Age(std::size_t point) const;
   void Differentiate();
 
   MotionConfig config_;

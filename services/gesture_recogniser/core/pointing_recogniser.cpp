@@ -4,19 +4,25 @@
 #include <cmath>
 #include <limits>
 
+#include "services/gesture_recogniser/core/forgetting.h"
+
 namespace deixis::gesture_recogniser {
 namespace {
 
 constexpr double kLeavesHold_m = 0.06;  // A gesture ends when the hand has left its hold this far.
 constexpr double kLeastCandidate = 0.01;
+// The longest stroke of usual models, which lies before the hold in the history.
+constexpr double kLongestStroke_s = 1.2;
 
 double Sigma(const scene::Hand& hand) {
   const double variance = 0.5 * (hand.covariance(0, 0) + hand.covariance(1, 1));
   return std::isfinite(variance) && variance > 0.0 ? std::sqrt(variance) : 1.0;
 }
 
+/// Not before the first time that there is, 0.
 Timestamp Before(Timestamp now, double seconds) {
-  return {now.microseconds - static_cast<std::int64_t>(std::llround(1e6 * seconds))};
+  const auto earlier = static_cast<std::int64_t>(std::llround(1e6 * seconds));
+  return {std::max<std::int64_t>(0, now.microseconds - earlier)};
 }
 
 bool CanBePointedAt(const scene::Object& object) {
@@ -30,11 +36,6 @@ bool IsAmong(const scene::Hands& hands, int id) {
 
 /// Whether two person ids may be one person's; -1 = not known.
 bool MayBeSamePerson(int person, int other) { return person < 0 || other < 0 || person == other; }
-
-scene::Box InMetres(const scene::Box& box, double px_per_m) {
-  return {box.x_px / px_per_m, box.y_px / px_per_m, box.width_px / px_per_m,
-          box.height_px / px_per_m};
-}
 
 std::unique_ptr<HandRecogniser> MakeRecogniser(const PointingRecogniserConfig& config,
                                                const std::vector<GestureModel>& models,
@@ -56,24 +57,22 @@ void PointingRecogniserConfig::Validate() const {
   faults.Require(objects_memory_s > 0.0, "objects_memory_s", "must be positive");
   faults.Require(longest_gap_s > 0.0, "longest_gap_s", "must be positive");
   faults.Require(rejoin_speed_m_per_s >= 0.0, "rejoin_speed_m_per_s", "must not be negative");
-  faults.Require(segmental.hold.longest_s + 1.2 <= motion.history_s, "motion.history_s",
-                 "must exceed segmental.hold.longest_s by 1.2 s");
+  faults.Require(segmental.hold.longest_s + kLongestStroke_s <= motion.history_s,
+                 "motion.history_s", "must exceed segmental.hold.longest_s by 1.2 s");
   faults.ThrowIfAny();
-  motion.Validate();
-  scale.Validate();
-  segmental.Validate();
-  as_printed.Validate();
 }
 
 PointingRecogniser::PointingRecogniser(const PointingRecogniserConfig& config,
                                        const std::vector<GestureModel>& models)
     : config_(config), models_(models), scale_(config.scale) {
   if (models.empty()) throw config::ConfigError("'models' must name at least one gesture model");
+  MakeRecogniser(config_, models_, 0);  // Models that do not fit are refused now, not at a hand.
 }
 
 void PointingRecogniser::ObserveObjects(const scene::Objects& objects) {
   has_objects_ = true;
   scale_.Observe(objects);
+  ForgetOlder(objects_, objects.time, config_.objects_memory_s);
   for (const scene::Object& object : objects.objects) {
     if (!CanBePointedAt(object)) continue;
     scene::Object& known = objects_[object.id];
@@ -83,8 +82,8 @@ void PointingRecogniser::ObserveObjects(const scene::Objects& objects) {
 }
 
 Recognition PointingRecogniser::ObserveHands(const scene::Hands& hands) {
-  ForgetIfTimeJumps(hands.time);
   Recognition result;
+  ForgetIfTimeJumps(hands.time, result);
   result.state.time = hands.time;
   result.state.camera = hands.camera;
   result.state.frame = hands.frame;
@@ -95,9 +94,12 @@ Recognition PointingRecogniser::ObserveHands(const scene::Hands& hands) {
   return result;
 }
 
-void PointingRecogniser::ForgetIfTimeJumps(Timestamp now) {
+void PointingRecogniser::ForgetIfTimeJumps(Timestamp now, Recognition& result) {
   const double elapsed_s = has_time_ ? SecondsBetween(last_time_, now) : 0.0;
-  if (elapsed_s < 0.0 || elapsed_s > config_.longest_gap_s) hands_.clear();
+  if (elapsed_s < 0.0 || elapsed_s > config_.longest_gap_s) {
+    for (auto& [id, track] : hands_) End(track, last_time_, result);
+    hands_.clear();
+  }
   if (elapsed_s < 0.0) {
     objects_.clear();
     scale_.Forget();

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -68,6 +69,7 @@ struct Recognition {
 /// Recognises pointing gestures of all hands and the objects that they mean.
 class PointingRecogniser {
  public:
+  /// Throws ConfigError when the method can do nothing with these models.
   PointingRecogniser(const PointingRecogniserConfig& config,
                      const std::vector<GestureModel>& models);
 
@@ -77,6 +79,7 @@ class PointingRecogniser {
 
   /// True once objects have been reported.
   bool knows_objects() const { return has_objects_; }
+  std::size_t remembered_objects() const { return objects_.size(); }
 
  private:
   struct TrackedHand {
@@ -90,7 +93,7 @@ class PointingRecogniser {
     Eigen::Vector2d held_px = Eigen::Vector2d::Zero();
   };
 
-  void ForgetIfTimeJumps(Timestamp now);
+  void ForgetIfTimeJumps(Timestamp now, Recognition& result);
   void ForgetLostHands(const scene::Hands& hands, Recognition& result);
   TrackedHand& Track(const scene::Hand& hand, const scene::Hands& hands, double px_per_m);
   void Rejoin(const scene::Hand& hand, const scene::Hands& hands, double px_per_m);

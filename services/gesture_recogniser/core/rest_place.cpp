@@ -7,7 +7,7 @@ namespace deixis::gesture_recogniser {
 
 void RestPlaceConfig::Validate() const {
   config::Faults faults;
-  faults.Require(still_s > 0.0, "still_s", "must be positive");
+  faults.Require(still_s > 0.0 && still_s <= 10.0, "still_s", "must lie in (0, 10]");
   faults.Require(scatter_m > 0.0, "scatter_m", "must be positive");
   faults.Require(gesture_radius_m >= 0.0, "gesture_radius_m", "must not be negative");
   faults.ThrowIfAny();

@@ -26,7 +26,7 @@ inline float MeanLogDensity(const ModelTable::Point* points, float phase, float 
   return sum / static_cast<float>(count);
 }
 
-/// e^x by splitting into a power of two and a polynomial; relative error below 1e-5 for |x| < 80.
+/// e^x by splitting into a power of two and a polynomial; relative error below 1e-4 for |x| < 80.
 inline float FastExp(float x) {
   const float scaled = std::min(std::max(x, -80.0F), 80.0F) * 1.44269504F;
   const float whole = std::floor(scaled);

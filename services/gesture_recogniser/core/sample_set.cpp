@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/gesture_recogniser/core/log_probability.h"
+
 namespace deixis::gesture_recogniser {
 namespace {
 
 ModelTable::Point Prepare(const ModelPoint& point) {
-  constexpr double kTwoPi = 6.28318530717958647692;
   const double inverse_speed = 1.0 / point.speed_spread_m_per_s;
   const double inverse_turn = 1.0 / point.turn_spread_rad;
   return {static_cast<float>(inverse_speed),

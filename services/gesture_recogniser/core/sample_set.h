@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "services/gesture_recogniser/core/gesture_model.h"
+#include "services/gesture_recogniser/core/index.h"
 
 namespace deixis::gesture_recogniser {
 
@@ -38,8 +39,6 @@ class ModelTable {
   int size() const { return static_cast<int>(first_.size()); }
 
  private:
-  static std::size_t Index(int model) { return static_cast<std::size_t>(model); }
-
   std::vector<Point> points_;
   std::vector<std::size_t> first_;
   std::vector<int> last_;

@@ -5,17 +5,25 @@
 
 #include "services/gesture_recogniser/core/context.h"
 #include "services/gesture_recogniser/core/decision.h"
+#include "services/gesture_recogniser/core/index.h"
 #include "services/gesture_recogniser/core/log_probability.h"
 
 namespace deixis::gesture_recogniser {
 namespace {
 
-std::size_t Index(int value) { return static_cast<std::size_t>(value); }
-
 const GestureModel& StrokeModel(const std::vector<GestureModel>& models) {
+  const GestureModel* stroke = nullptr;
   for (const GestureModel& model : models) {
-    if (model.context != ContextNeed::kNone) return model;
+    if (model.context == ContextNeed::kNone) continue;
+    if (stroke != nullptr) {
+      throw config::ConfigError("'models' names two gestures, '" + stroke->name + "' and '" +
+                                model.name +
+                                "': method segmental knows one; leave one out, or set method to "
+                                "as_printed");
+    }
+    stroke = &model;
   }
+  if (stroke != nullptr) return *stroke;
   throw config::ConfigError("'models' must name one whose context is optional or required");
 }
 
@@ -42,10 +50,6 @@ void SegmentalConfig::Validate() const {
   faults.Require(measured_share >= 0.0 && measured_share <= 1.0, "measured_share",
                  "must lie in [0, 1]");
   faults.ThrowIfAny();
-  stroke.Validate();
-  hold.Validate();
-  destination.Validate();
-  rest_place.Validate();
 }
 
 Segmental::Segmental(const SegmentalConfig& config, const std::vector<GestureModel>& models,
@@ -102,27 +106,31 @@ void Segmental::AddArrival(const Motion& motion, const Surroundings& surrounding
                            int steps_ago) {
   const HoldEvidence hold = JudgeHold(config_.hold, motion, steps_ago);
   const StrokeEvidence& stroke = stroke_.At(steps_ago);
-  destinations_.Judge(DescribeArrival(motion, hold, steps_ago), surroundings,
-                      rest_place_.position_m(), side, densities_);
+  const double log_odds = hold.log_odds + stroke.log_odds;
   // Every arrival time is as likely as any other; densities are relative to a hand that is just
   // anywhere and comes from anywhere.
   const double arrivals = LongestHold(motion) - ShortestHold(motion) + 1;
   const double anywhere = -std::log(config_.destination.reach_m2 * kTwoPi);
-  const double evidence = hold.log_odds + stroke.log_odds - anywhere - std::log(arrivals);
-  const auto add = [evidence](double& sum, double density) {
-    sum = LogAdd(sum, density + evidence);
-  };
-  for (std::size_t i = 0; i < densities_.target.size(); ++i) {
-    add(posterior_.target[i], densities_.target[i]);
-  }
-  add(posterior_.elsewhere, densities_.elsewhere);
-  add(posterior_.rest, densities_.rest);
-  add(posterior_.face, densities_.face);
-  if (hold.log_odds + stroke.log_odds > best_log_odds_) {
-    best_log_odds_ = hold.log_odds + stroke.log_odds;
+  Add(destinations_.Judge(DescribeArrival(motion, hold, steps_ago), surroundings,
+                          rest_place_.position_m(), side),
+      log_odds - anywhere - std::log(arrivals));
+  if (log_odds > best_log_odds_) {
+    best_log_odds_ = log_odds;
     posterior_.best_hold = steps_ago;
     posterior_.best_duration_s = stroke.duration_s;
   }
+}
+
+void Segmental::Add(const DestinationDensities& densities, double evidence) {
+  const auto add = [evidence](double& sum, double density) {
+    sum = LogAdd(sum, density + evidence);
+  };
+  for (std::size_t i = 0; i < densities.target.size(); ++i) {
+    add(posterior_.target[i], densities.target[i]);
+  }
+  add(posterior_.elsewhere, densities.elsewhere);
+  add(posterior_.rest, densities.rest);
+  add(posterior_.face, densities.face);
 }
 
 Arrival Segmental::DescribeArrival(const Motion& motion, const HoldEvidence& hold,
@@ -138,12 +146,11 @@ Arrival Segmental::DescribeArrival(const Motion& motion, const HoldEvidence& hol
   arrival.sigma_m = hold.sigma_m;
   arrival.way_m = hold.position_m - at(steps_ago + way);
   arrival.way_sigma_m = std::hypot(motion.sigma_m, hold.sigma_m);
-  arrival.origin_m = at(steps_ago + duration);
   if (rest_place_.position_m()) {
     const Eigen::Vector2d& rest = *rest_place_.position_m();
-    arrival.nearest_rest_m =
-        std::min({(at(steps_ago + duration - 2) - rest).norm(), (arrival.origin_m - rest).norm(),
-                  (at(steps_ago + duration + 2) - rest).norm()});
+    arrival.nearest_rest_m = std::min({(at(steps_ago + duration - 2) - rest).norm(),
+                                       (at(steps_ago + duration) - rest).norm(),
+                                       (at(steps_ago + duration + 2) - rest).norm()});
   }
   return arrival;
 }

@@ -48,7 +48,7 @@ struct SegmentalConfig {
 /// particular.
 class Segmental final : public HandRecogniser {
  public:
-  /// `models` needs one model with a context; throws config::ConfigError without.
+  /// `models` needs exactly one model with a context; throws config::ConfigError otherwise.
   Segmental(const SegmentalConfig& config, const std::vector<GestureModel>& models, double step_s);
 
   const Assessment& Observe(const Motion& motion, const Surroundings& surroundings,
@@ -73,6 +73,7 @@ class Segmental final : public HandRecogniser {
   void Infer(const Motion& motion, const Surroundings& surroundings, scene::Side side);
   void AddArrival(const Motion& motion, const Surroundings& surroundings, scene::Side side,
                   int steps_ago);
+  void Add(const DestinationDensities& densities, double evidence);
   Arrival DescribeArrival(const Motion& motion, const HoldEvidence& hold, int steps_ago) const;
   void Describe(const Motion& motion, const Surroundings& surroundings);
   std::optional<Decision> Decide(const Motion& motion);
@@ -87,7 +88,6 @@ class Segmental final : public HandRecogniser {
   Destinations destinations_;
   RestPlace rest_place_;
   Posterior posterior_;
-  DestinationDensities densities_;
   double best_log_odds_ = 0.0;
   std::optional<Past> last_;
   Assessment assessment_;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "services/gesture_recogniser/core/index.h"
 #include "services/gesture_recogniser/core/log_probability.h"
 
 namespace deixis::gesture_recogniser {
@@ -12,7 +14,8 @@ constexpr double kNoiseTolerance =
     0.05;  // Tables are made anew when the noise changes by this share.
 constexpr double kMeanOfRayleigh = 1.25;  // Mean length of plane noise of sigma 1.
 
-std::size_t Index(int value) { return static_cast<std::size_t>(value); }
+// Of jumps that no hand can make: sums of the logarithm stay finite, differences of them defined.
+constexpr double kLeastDensity = std::numeric_limits<double>::min();
 
 void Normalise(std::vector<double>& log_priors) {
   double sum = kImpossible;
@@ -37,7 +40,8 @@ double LogRayleigh(double speed, double sigma) {
 
 void StrokeConfig::Validate() const {
   config::Faults faults;
-  faults.Require(spread_factor > 0.0, "spread_factor", "must be positive");
+  faults.Require(spread_factor > 0.0 && spread_factor <= 10.0, "spread_factor",
+                 "must lie in (0, 10]");
   faults.Require(amplitudes >= 2 && amplitudes <= 64, "amplitudes", "must lie between 2 and 64");
   faults.Require(noise_ratio >= 0.0, "noise_ratio", "must not be negative");
   faults.Require(free_slow_m_per_s > 0.0, "free_slow_m_per_s", "must be positive");
@@ -121,7 +125,8 @@ void Stroke::Accumulate(const Motion& motion) {
   for (const double speed : motion.centred_speed_m_per_s) {
     const double slow = std::exp(-speed / config_.free_slow_m_per_s) / config_.free_slow_m_per_s;
     const double fast = std::exp(-speed / config_.free_fast_m_per_s) / config_.free_fast_m_per_s;
-    free_sum_.push_back(free_sum_.back() + std::log(0.5 * slow + 0.5 * fast));
+    const double density = std::max(0.5 * slow + 0.5 * fast, kLeastDensity);
+    free_sum_.push_back(free_sum_.back() + std::log(density));
     rest_sum_.push_back(rest_sum_.back() + LogRayleigh(speed, resting));
   }
 }

@@ -11,7 +11,6 @@ namespace {
 constexpr double kRestExample_s = 0.33;
 constexpr double kRestRadius_m = 0.02;  // A hand that stays within, noise apart, is resting.
 constexpr double kRestDeviations = 3.5;
-constexpr double kArrival_s = 0.2;
 
 /// One hand's way through a recording, in metres.
 class Way {
@@ -86,9 +85,21 @@ const scene::Object* Find(const Recording& recording, int object_id) {
   return nullptr;
 }
 
-scene::Box InMetres(const scene::Box& box, double px_per_m) {
-  return {box.x_px / px_per_m, box.y_px / px_per_m, box.width_px / px_per_m,
-          box.height_px / px_per_m};
+/// Mean position of the first steps of a hold.
+Eigen::Vector2d HoldAfter(const Way& way, double apex_s, double step_s, double scale_time_s) {
+  Eigen::Vector2d held = Eigen::Vector2d::Zero();
+  for (int i = 1; i <= 4; ++i) held += 0.25 * way.At(apex_s + i * step_s, scale_time_s);
+  return held;
+}
+
+/// The forearm's direction as the recogniser guesses it; nothing without a face.
+std::optional<Eigen::Vector2d> ForearmOf(const Way& way, const LabelledGesture& gesture,
+                                         const Eigen::Vector2d& held_m) {
+  const auto& face = way.Face(gesture.apex_s);
+  if (!face) return std::nullopt;
+  const scene::Box face_m = InMetres(*face, way.PixelsPerMetre(gesture.start_s));
+  return ForearmDirection(ShoulderFromFace(face_m, gesture.side), held_m,
+                          DestinationConfig{}.elbow_sag);
 }
 
 Example StrokeExample(const Way& way, const LabelledGesture& gesture, const scene::Object& object,
@@ -100,17 +111,14 @@ Example StrokeExample(const Way& way, const LabelledGesture& gesture, const scen
     const double time_s = start_s + example.duration_s * i / (points - 1);
     example.gap_m.push_back(scene::DistanceTo(box_m, way.At(time_s, start_s)));
   }
-  Eigen::Vector2d held = Eigen::Vector2d::Zero();
-  for (int i = 1; i <= 4; ++i) held += 0.25 * way.At(gesture.apex_s + i * step_s, start_s);
-  const Eigen::Vector2d direction = scene::Centre(box_m) - held;
-  const Eigen::Vector2d last = held - way.At(gesture.apex_s - kArrival_s, start_s);
+  const Eigen::Vector2d held = HoldAfter(way, gesture.apex_s, step_s, start_s);
+  const Eigen::Vector2d last =
+      held - way.At(gesture.apex_s - DestinationConfig{}.arrival_s, start_s);
+  const double heading = Heading(scene::Centre(box_m) - held);
   example.final_gap_m = scene::DistanceTo(box_m, held);
-  example.arrival_error_rad = WrapAngle(Heading(last) - Heading(direction));
-  if (const auto& face = way.Face(gesture.apex_s)) {
-    const scene::Box face_m = InMetres(*face, way.PixelsPerMetre(start_s));
-    const Eigen::Vector2d arm = ForearmDirection(ShoulderFromFace(face_m, gesture.side), held,
-                                                 DestinationConfig{}.elbow_sag);
-    example.posture_error_rad = WrapAngle(Heading(arm) - Heading(direction));
+  example.arrival_error_rad = WrapAngle(Heading(last) - heading);
+  if (const auto arm = ForearmOf(way, gesture, held)) {
+    example.posture_error_rad = WrapAngle(Heading(*arm) - heading);
   }
   return example;
 }

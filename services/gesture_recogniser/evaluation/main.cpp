@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 
+#include "common/program/command_line.h"
 #include "services/gesture_recogniser/evaluation/examples.h"
 #include "services/gesture_recogniser/gesture_recogniser_service.h"
 
@@ -19,32 +20,7 @@ struct Arguments {
   std::vector<std::string> columns;
   std::vector<std::string> overrides;
   int seeds = 10;
-  double noise_px = 2.5;
-};
-
-Arguments Parse(int argc, char** argv) {
-  Arguments arguments;
-  CLI::App app("Runs the gesture recogniser over recordings.", "deixis-evaluate-pointing");
-  app.add_option("--recordings", arguments.recordings, "Folder of *.recording files")->required();
-  app.add_option("--training", arguments.training,
-                 "Learn models from this folder, each tested person left out");
-  app.add_option("--scenes", arguments.scenes, "Put the objects of these into each recording");
-  app.add_option("--config", arguments.config_file, "Configuration of the gesture recogniser");
-  app.add_option("--column", arguments.columns, "Column name:key=value,key=value...");
-  app.add_option("--set", arguments.overrides, "Override a key for all columns: key=value");
-  app.add_option("--seeds", arguments.seeds, "How many runs with other noise");
-  app.add_option("--noise-px", arguments.noise_px, "Noise added to true hand positions");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error) == 0 ? 0 : 2);
-  }
-  return arguments;
-}
-
-struct Column {
-  std::string name;
-  GestureRecogniserServiceConfig config;
+  double noise_px = TrackNoise{}.sigma_px;
 };
 
 std::vector<std::string> Split(const std::string& text, char separator) {
@@ -53,6 +29,49 @@ std::vector<std::string> Split(const std::string& text, char separator) {
   for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
   return parts;
 }
+
+/// What is wrong with the settings of a column; empty when nothing is.
+std::string ColumnFault(const std::string& text) {
+  const auto colon = text.find(':');
+  if (text.empty() || colon == 0) return "'" + text + "' has no name";
+  if (colon == std::string::npos) return "";
+  for (const std::string& setting : Split(text.substr(colon + 1), ',')) {
+    const std::string fault = program::AssignmentFault(setting);
+    if (!fault.empty()) return fault;
+  }
+  return "";
+}
+
+Arguments Parse(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Runs the gesture recogniser over recordings.", "deixis-evaluate-pointing");
+  app.set_version_flag("--version", "deixis-evaluate-pointing " DEIXIS_VERSION);
+  app.add_option("--recordings", arguments.recordings, "Folder of *.recording files")->required();
+  app.add_option("--training", arguments.training,
+                 "Learn models from this folder, each tested person left out");
+  app.add_option("--scenes", arguments.scenes, "Put the objects of these into each recording");
+  app.add_option("--config", arguments.config_file, "Configuration of the gesture recogniser")
+      ->check(program::EmptyFault);
+  app.add_option("--column", arguments.columns, "Column name:key=value,key=value...")
+      ->check(ColumnFault);
+  app.add_option("--set", arguments.overrides, "Override a key for all columns: key=value")
+      ->check(program::AssignmentFault);
+  app.add_option("--seeds", arguments.seeds, "How many runs with other noise")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--noise-px", arguments.noise_px, "Noise added to true hand positions")
+      ->check(CLI::NonNegativeNumber);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::exit(app.exit(error) == 0 ? program::kStopped : program::kWrongCommand);
+  }
+  return arguments;
+}
+
+struct Column {
+  std::string name;
+  GestureRecogniserServiceConfig config;
+};
 
 Column MakeColumn(const Arguments& arguments, const std::string& text) {
   const auto colon = text.find(':');
@@ -132,6 +151,10 @@ void RunAll(const Arguments& arguments) {
   if (arguments.columns.empty()) columns.push_back(MakeColumn(arguments, "default"));
   for (const std::string& text : arguments.columns) columns.push_back(MakeColumn(arguments, text));
   const std::vector<Recording> recordings = ReadRecordings(arguments.recordings);
+  if (recordings.empty()) {
+    throw config::ConfigError("folder '" + arguments.recordings.string() +
+                              "' has no *.recording file; set --recordings to one that has");
+  }
   std::vector<Recording> scenes;
   if (!arguments.scenes.empty()) scenes = ReadRecordings(arguments.scenes);
   Models models(arguments, columns.front().config.recogniser, columns.front().config.models);
@@ -159,7 +182,7 @@ int main(int argc, char** argv) {
     deixis::gesture_recogniser::RunAll(deixis::gesture_recogniser::Parse(argc, argv));
   } catch (const std::exception& error) {
     std::cerr << "deixis-evaluate-pointing: " << error.what() << "\n";
-    return 1;
+    return deixis::program::kCannotWork;
   }
-  return 0;
+  return deixis::program::kStopped;
 }

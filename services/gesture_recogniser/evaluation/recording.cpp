@@ -46,6 +46,11 @@ RecordedHand ReadHand(std::istream& in) {
   return hand;
 }
 
+bool HasMoreWords(std::istream& in) {
+  std::string word;
+  return static_cast<bool>(in >> word);
+}
+
 /// Takes in one line; false when it does not make sense.
 bool ReadLine(std::istringstream& in, Recording& recording) {
   std::string word;
@@ -65,7 +70,7 @@ bool ReadLine(std::istringstream& in, Recording& recording) {
   } else {
     return false;
   }
-  return !in.fail();
+  return !in.fail() && !HasMoreWords(in);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ struct RecordedFrame {
   std::vector<RecordedHand> hands;
 };
 
-/// Hands, faces, objects and labels of one sequence, as text:
+/// Hands, faces, objects and labels of one sequence, as text (names are words without blanks):
 ///   recording NAME PERSON
 ///   object ID LABEL X Y WIDTH HEIGHT                      (pixels)
 ///   gesture START APEX END RETRACT_END SIDE OBJECT        (seconds; left or right; id)

@@ -15,8 +15,7 @@ cv::Mat GreyOf(const cv::Mat& bgr) {
 }  // namespace
 
 ObjectDetector::ObjectDetector(const DetectorsConfig& config)
-    : detectors_(MakeDetectors(config, [this] { return next_id_++; })),
-      frame_(FrameOfPositions(config)) {}
+    : detectors_(MakeDetectors(config, [this] { return next_id_++; })) {}
 
 scene::Objects ObjectDetector::Detect(const images::Image& image) {
   ResetIfTimeWentBack(image.time);
@@ -24,9 +23,9 @@ scene::Objects ObjectDetector::Detect(const images::Image& image) {
   scene::Objects objects;
   objects.time = image.time;
   objects.camera = image.camera;
-  objects.frame = frame_;
+  objects.frame = detectors_.frame;
   objects.source = "object_detector";
-  for (const auto& detector : detectors_) {
+  for (const auto& detector : detectors_.all) {
     const std::vector<scene::Object> found = detector->Detect(picture);
     objects.objects.insert(objects.objects.end(), found.begin(), found.end());
   }
@@ -37,7 +36,7 @@ scene::Objects ObjectDetector::Detect(const images::Image& image) {
 
 void ObjectDetector::ResetIfTimeWentBack(Timestamp time) {
   if (last_time_ && time < *last_time_) {
-    for (const auto& detector : detectors_) detector->Reset();
+    for (const auto& detector : detectors_.all) detector->Reset();
   }
   last_time_ = time;
 }

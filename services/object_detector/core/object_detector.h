@@ -22,12 +22,14 @@ class ObjectDetector {
   /// begins anew; ids are not used again.
   scene::Objects Detect(const images::Image& image);
 
+  /// What has to be known about the configuration that was read; empty = nothing.
+  const std::string& remark() const { return detectors_.remark; }
+
  private:
   void ResetIfTimeWentBack(Timestamp time);
 
   int next_id_ = kFirstTrackId;
-  std::vector<std::unique_ptr<Detector>> detectors_;
-  std::string frame_;
+  Detectors detectors_;
   std::optional<Timestamp> last_time_;
 };
 

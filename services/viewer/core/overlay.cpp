@@ -74,17 +74,24 @@ void DrawContexts(const Scene& scene, Canvas& canvas) {
   }
 }
 
-void DrawObject(const scene::Object& object, double probability, bool is_meant, Canvas& canvas) {
+struct Pen {
+  cv::Scalar colour;
+  double width = 1.0;
+};
+
+Pen PenFor(const scene::Object& object, const Scene& scene) {
+  if (IsMeant(scene, object.id)) return {kMeantColour, 3.5};
+  return {object.kind == scene::ObjectKind::kFace ? kFaceColour : kObjectColour, 1.6};
+}
+
+void DrawObject(const scene::Object& object, double probability, const Pen& pen, Canvas& canvas) {
   if (!object.box) return;
-  const bool is_face = object.kind == scene::ObjectKind::kFace;
-  const cv::Scalar colour = is_meant ? kMeantColour : is_face ? kFaceColour : kObjectColour;
   const bool is_certain =
       object.visibility == scene::Visibility::kSeen || object.kind == scene::ObjectKind::kPlace;
-  canvas.DrawBox(*object.box, colour, is_meant ? 3.5 : 1.6,
-                 is_certain ? Stroke::kFull : Stroke::kBroken);
+  canvas.DrawBox(*object.box, pen.colour, pen.width, is_certain ? Stroke::kFull : Stroke::kBroken);
   const std::string label = object.label.empty() ? std::to_string(object.id) : object.label;
   const std::string text = probability > 0.005 ? label + " " + Number(probability) : label;
-  canvas.DrawText(text, {object.box->x_px, object.box->y_px}, Anchor::kAbove, 1.0, colour);
+  canvas.DrawText(text, {object.box->x_px, object.box->y_px}, Anchor::kAbove, 1.0, pen.colour);
 }
 
 void DrawObjects(const Scene& scene, Canvas& canvas) {
@@ -93,7 +100,7 @@ void DrawObjects(const Scene& scene, Canvas& canvas) {
   for (const scene::Object& object : scene.objects->objects) {
     const auto found = probabilities.find(object.id);
     const double probability = found == probabilities.end() ? 0.0 : found->second;
-    DrawObject(object, probability, IsMeant(scene, object.id), canvas);
+    DrawObject(object, probability, PenFor(object, scene), canvas);
   }
 }
 

@@ -37,8 +37,8 @@ struct SceneHistoryConfig {
 
 /// Puts pictures and the results that came from them together again: a result belongs to the
 /// picture of the same time. Services that pass over pictures answer only some of them; then the
-/// newest result from before is taken. A picture or result from before the last picture begins
-/// anew.
+/// newest result from before is taken. A picture from before the last one begins everything anew, a
+/// result from before the last of its kind begins its kind anew.
 class SceneHistory {
  public:
   explicit SceneHistory(const SceneHistoryConfig& config) : config_(config) {}

@@ -10,6 +10,7 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 enum class Pace { kSlow, kFast };
 inline auto EnumNames(Pace) {
@@ -21,6 +22,11 @@ struct Part {
   template <typename Visitor>
   void Visit(Visitor& v) {
     v("gain", gain);
+  }
+  void Validate() const {
+    Faults faults;
+    faults.Require(gain >= 0.0, "gain", "must not be negative");
+    faults.ThrowIfAny();
   }
 };
 
@@ -133,12 +139,91 @@ TEST_F(Config, RejectsBrokenYaml) {
   EXPECT_THAT(FaultOf("count: [1\n"), HasSubstr("is not valid YAML"));
 }
 
+TEST_F(Config, NamesPathAndLineOfANestedFault) {
+  EXPECT_THAT(FaultOf("count: 1\npart:\n  gain: -1\n"),
+              HasSubstr("sample.yaml:3: key 'part.gain' must not be negative"));
+  EXPECT_THAT(FaultOf("parts:\n  - {gain: 1}\n  - {gain: -1}\n"),
+              HasSubstr("sample.yaml:3: key 'parts[1].gain' must not be negative"));
+  EXPECT_THAT(FaultOf("name: left\n\ncount: 0\n"), HasSubstr("sample.yaml:3: key 'count' must"));
+}
+
+TEST_F(Config, RejectsAnAliasThatHoldsItself) {
+  EXPECT_THAT(FaultOf("count: 1\npart: &a\n  gain: *a\n"),
+              AllOf(HasSubstr("sample.yaml:2: anchors and aliases"), HasSubstr("not taken")));
+  EXPECT_THAT(FaultOf("part: &a [*a]\n"), HasSubstr("anchors and aliases"));
+}
+
+TEST_F(Config, RejectsAnAliasBombAtOnce) {
+  std::string bomb = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int i = 1; i < 30; ++i) {
+    const std::string last = "*a" + std::to_string(i - 1);
+    bomb += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + last + ", " + last +
+            ", " + last + "]\n";
+  }
+  EXPECT_THAT(FaultOf(bomb), HasSubstr("anchors and aliases"));
+}
+
+TEST_F(Config, RejectsBottomlessNesting) {
+  const std::string nested = std::string(100'000, '[') + std::string(100'000, ']');
+  EXPECT_THAT(FaultOf("values: " + nested + "\n"), HasSubstr("nested more than 32 levels"));
+  EXPECT_THAT(FaultOf("", {"values=" + nested}), HasSubstr("nested more than 32 levels"));
+}
+
+TEST_F(Config, RejectsWhatIsNoFile) {
+  EXPECT_THAT([] { FindConfig("/dev/null"); },
+              ThrowsMessage<ConfigError>(HasSubstr("'/dev/null' is not a file")));
+  EXPECT_THAT([this] { FindConfig(folder_.path().string()); },
+              ThrowsMessage<ConfigError>(HasSubstr("is not a file")));
+  EXPECT_THAT([] { FindConfig(""); }, ThrowsMessage<ConfigError>(HasSubstr("is empty")));
+}
+
+TEST_F(Config, NamesAFileThatCannotBeRead) {
+  EXPECT_THAT([] { Load<Sample>("/proc/self/mem"); },
+              ThrowsMessage<ConfigError>(HasSubstr("/proc/self/mem: cannot be read: ")));
+}
+
 TEST_F(Config, RejectsAMissingFile) {
   EXPECT_THROW(Load<Sample>(folder_.path() / "absent.yaml"), ConfigError);
 }
 
 TEST_F(Config, RejectsAnOverrideWithoutAValue) {
   EXPECT_THAT(FaultOf("", {"count"}), HasSubstr("key=value"));
+}
+
+TEST_F(Config, BlamesTheOverrideNotTheFile) {
+  EXPECT_EQ(FaultOf("count: 1\n", {"count.b=1"}), "override 'count.b=1': 'count' is not a mapping");
+  EXPECT_EQ(FaultOf("values: [1, 2]\n", {"values.0=1"}),
+            "override 'values.0=1': 'values' is not a mapping");
+  EXPECT_THAT(FaultOf("count: 1\n", {"count=[1"}),
+              HasSubstr("override 'count=[1': the value is not valid YAML"));
+}
+
+TEST_F(Config, BlamesTheOverrideForAValueThatMakesNoSense) {
+  EXPECT_EQ(FaultOf("count: 1\n", {"count=many"}),
+            "override 'count=many': key 'count' must be a whole number");
+  EXPECT_EQ(FaultOf("count: 1\n", {"count=0"}), "override 'count=0': key 'count' must be positive");
+  EXPECT_EQ(FaultOf("part: {gain: 1}\n", {"part={gain: -1}"}),
+            "override 'part={gain: -1}': key 'part.gain' must not be negative");
+  EXPECT_THAT(FaultOf("", {"cuont=1"}), HasSubstr("override 'cuont=1': key 'cuont' is not known"));
+  EXPECT_THAT(FaultOf("", {"part=&a {gain: *a}"}), HasSubstr("override 'part=&a {gain: *a}'"));
+  EXPECT_THAT(FaultOf("", {"part={[1]: 2}"}), HasSubstr("override 'part={[1]: 2}'"));
+}
+
+TEST_F(Config, TakesTheTextOfAnOverrideAsItIs) {
+  for (const std::string text : {"*.jpg", "[0-9]*.jpg", "&x", "a: b", "{", "~", "# no comment"}) {
+    EXPECT_EQ(Read("name: left\n", {"name=" + text}).name, text);
+  }
+  EXPECT_EQ(Read("name: left\n", {"name="}).name, "");
+  EXPECT_EQ(Read("name: left\n", {"name=\"two words\""}).name, "two words");
+}
+
+TEST_F(Config, OverridesKeysThatTheFileLeavesOut) {
+  EXPECT_EQ(Read("", {"part.gain=4"}).part.gain, 4.0);
+  EXPECT_EQ(Read("part:\n", {"part.gain=4"}).part.gain, 4.0);
+}
+
+TEST_F(Config, RejectsAFileThatIsNoMapping) {
+  EXPECT_THAT(FaultOf("just words\n", {"count=1"}), HasSubstr("must be a mapping of keys"));
 }
 
 TEST_F(Config, DemandsEveryKeyOfShippedFiles) {

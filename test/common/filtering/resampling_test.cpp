@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "common/filtering/random.h"
+
 namespace deixis::filtering {
 namespace {
 
@@ -19,14 +21,13 @@ std::vector<int> CountsOf(const std::vector<int>& ancestors, std::size_t sources
 
 const std::vector<float> kWeights{0.05F, 0.0F, 0.45F, 0.2F, 0.3F};
 
-template <typename Resample>
-void ExpectUnbiased(Resample resample) {
+TEST(Resampling, IsUnbiased) {
   constexpr int kRuns = 20000;
   const CounterRandom random(3, 1);
   std::vector<int> ancestors(7);
   std::vector<double> mean(kWeights.size(), 0.0);
   for (std::uint64_t run = 0; run < kRuns; ++run) {
-    ASSERT_TRUE(resample(run, random, ancestors));
+    ASSERT_TRUE(ResampleSystematically(kWeights, random.Uniform(run), ancestors));
     const auto counts = CountsOf(ancestors, kWeights.size());
     for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += counts[i] / double{kRuns};
   }
@@ -35,19 +36,7 @@ void ExpectUnbiased(Resample resample) {
   }
 }
 
-TEST(Resampling, SystematicIsUnbiased) {
-  ExpectUnbiased([](std::uint64_t run, const CounterRandom& random, std::vector<int>& ancestors) {
-    return ResampleSystematically(kWeights, random.Uniform(run), ancestors);
-  });
-}
-
-TEST(Resampling, StratifiedIsUnbiased) {
-  ExpectUnbiased([](std::uint64_t run, const CounterRandom&, std::vector<int>& ancestors) {
-    return ResampleStratified(kWeights, CounterRandom(5, run), ancestors);
-  });
-}
-
-TEST(Resampling, SystematicCountsDifferFromTheirShareByLessThanOne) {
+TEST(Resampling, CountsDifferFromTheirShareByLessThanOne) {
   const CounterRandom random(9, 0);
   std::vector<int> ancestors(1000);
   for (std::uint64_t run = 0; run < 50; ++run) {

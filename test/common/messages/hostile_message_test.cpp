@@ -2,13 +2,18 @@
 #include <gmock/gmock.h>
 
 #include <bot_core/images_t.hpp>
+#include <cmath>
+#include <deixis/gesture_state_t.hpp>
+#include <deixis/gesture_t.hpp>
 #include <deixis/hand_tracks_t.hpp>
+#include <deixis/objects_t.hpp>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/messages/camera_calibration.h"
 #include "common/messages/gesture.h"
+#include "common/messages/gesture_state.h"
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
 #include "common/messages/objects.h"
@@ -21,8 +26,7 @@ using bot_core::image_t;
 template <typename T>
 std::string ReasonFor(const std::vector<std::uint8_t>& bytes) {
   try {
-    Header header;
-    Codec<T>::Decode({bytes.data(), bytes.size()}, header);
+    Codec<T>::Decode({bytes.data(), bytes.size()});
   } catch (const Rejected& rejected) {
     return rejected.what();
   }
@@ -73,14 +77,14 @@ TEST(HostileHands, EveryTruncationIsRejected) {
   const auto whole = Encoded(GoodHands());
   for (std::size_t size = 0; size < whole.size(); ++size) {
     const std::vector<std::uint8_t> part(whole.begin(), whole.begin() + static_cast<long>(size));
-    EXPECT_NE(ReasonFor<scene::Hands>(part), "accepted") << size;
+    EXPECT_EQ(ReasonFor<scene::Hands>(part), "truncated") << size;
   }
 }
 
 TEST(HostileHands, TrailingBytesAreRejected) {
   auto bytes = Encoded(GoodHands());
   bytes.push_back(0);
-  EXPECT_EQ(ReasonFor<scene::Hands>(bytes), "truncated");
+  EXPECT_EQ(ReasonFor<scene::Hands>(bytes), "trailing_bytes");
 }
 
 TEST(HostileHands, AnotherTypeIsRejected) {
@@ -113,11 +117,106 @@ TEST(HostileHands, NegativeBoxesAreRejected) {
   EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "out_of_range");
 }
 
+TEST(HostileHands, PlacesFarBeyondAnyPictureAreRejected) {
+  for (const double absurd : {1.1e6, -1e300}) {
+    auto message = GoodHands();
+    message.hands[0].box_px[2] = std::abs(absurd);
+    EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "out_of_range");
+    message = GoodHands();
+    message.hands[0].centre_px[0] = absurd;
+    EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "out_of_range");
+    message = GoodHands();
+    message.hands[0].velocity_px_per_s[1] = absurd;
+    EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "out_of_range");
+    message = GoodHands();
+    message.hands[0].covariance[0] = absurd * absurd;
+    EXPECT_NE(ReasonFor<scene::Hands>(Encoded(message)), "accepted");
+  }
+}
+
+TEST(HostileHands, TimesAndNumbersThatCannotBeAreRejected) {
+  for (const std::int64_t absurd : {std::int64_t{-1}, std::numeric_limits<std::int64_t>::min(),
+                                    std::numeric_limits<std::int64_t>::max()}) {
+    auto message = GoodHands();
+    message.utime = absurd;
+    EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "out_of_range") << absurd;
+    message = GoodHands();
+    message.sequence = absurd;
+    EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "out_of_range") << absurd;
+  }
+}
+
 TEST(HostileHands, TooManyAreRejected) {
   auto message = GoodHands();
   message.hands.assign(257, hand_t{});
   message.n_hands = 257;
   EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "too_many");
+}
+
+objects_t GoodFace() {
+  objects_t message{};
+  message.objects.resize(1);
+  object_t& face = message.objects[0] = object_t{};
+  face.kind = static_cast<std::int8_t>(scene::ObjectKind::kFace);
+  face.has_box = true;
+  face.box_px[2] = face.box_px[3] = 40.0;
+  face.score = 1.0;
+  message.n_objects = 1;
+  return message;
+}
+
+TEST(HostileObjects, GoodOneIsAccepted) {
+  EXPECT_EQ(ReasonFor<scene::Objects>(Encoded(GoodFace())), "accepted");
+}
+
+TEST(HostileObjects, FacesSmallerThanAPixelAreRejected) {
+  auto message = GoodFace();
+  message.objects[0].box_px[3] = 1e-300;
+  EXPECT_EQ(ReasonFor<scene::Objects>(Encoded(message)), "out_of_range");
+}
+
+TEST(HostileObjects, ScoresThatAreNoProbabilityAreRejected) {
+  auto message = GoodFace();
+  message.objects[0].score = 1.5;
+  EXPECT_EQ(ReasonFor<scene::Objects>(Encoded(message)), "out_of_range");
+}
+
+TEST(HostileObjects, TimesOfLastSightThatCannotBeAreRejected) {
+  auto message = GoodFace();
+  message.objects[0].last_seen_utime = -5;
+  EXPECT_EQ(ReasonFor<scene::Objects>(Encoded(message)), "out_of_range");
+}
+
+TEST(HostileGestures, PhasesThatAreNoShareAreRejected) {
+  gesture_state_t message{};
+  message.hypotheses.resize(1);
+  message.hypotheses[0] = gesture_hypothesis_t{};
+  message.n_hypotheses = 1;
+  EXPECT_EQ(ReasonFor<scene::GestureState>(Encoded(message)), "accepted");
+  message.hypotheses[0].phase = 1.1;
+  EXPECT_EQ(ReasonFor<scene::GestureState>(Encoded(message)), "out_of_range");
+}
+
+TEST(HostileGestures, ContextAreasFarBeyondAnyPictureAreRejected) {
+  gesture_state_t good{};
+  good.hypotheses.resize(1);
+  good.hypotheses[0] = gesture_hypothesis_t{};
+  good.hypotheses[0].has_context = true;
+  good.n_hypotheses = 1;
+  EXPECT_EQ(ReasonFor<scene::GestureState>(Encoded(good)), "accepted");
+  auto message = good;
+  message.hypotheses[0].context_radius_px = 1e300;
+  EXPECT_EQ(ReasonFor<scene::GestureState>(Encoded(message)), "out_of_range");
+  message = good;
+  message.hypotheses[0].context_end_rad = 1e300;
+  EXPECT_EQ(ReasonFor<scene::GestureState>(Encoded(message)), "out_of_range");
+}
+
+TEST(HostileGestures, TimesThatCannotBeAreRejected) {
+  gesture_t message{};
+  EXPECT_EQ(ReasonFor<scene::Gesture>(Encoded(message)), "accepted");
+  message.start_utime = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(ReasonFor<scene::Gesture>(Encoded(message)), "out_of_range");
 }
 
 TEST(HostileImage, GoodOnesAreAccepted) {
@@ -176,9 +275,8 @@ TEST(StereoImage, LeftPictureIsTaken) {
   message.images = {GoodGrey(), GoodJpeg()};
   message.n_images = 2;
   message.images[1].utime = 77;
-  Header header;
   const auto bytes = Encoded(message);
-  const auto image = Codec<images::Image>::Decode({bytes.data(), bytes.size()}, header);
+  const auto image = Codec<images::Image>::Decode({bytes.data(), bytes.size()}).value;
   EXPECT_EQ(image.bgr.cols, 8);
   EXPECT_EQ(image.time.microseconds, 77);
 }
@@ -197,10 +295,19 @@ TEST(ImageColours, RedGreenBlueIsTurnedRound) {
   message.pixelformat = image_t::PIXEL_FORMAT_RGB;
   message.data = {1, 2, 3};
   message.size = 3;
-  Header header;
   const auto bytes = Encoded(message);
-  const auto image = Codec<images::Image>::Decode({bytes.data(), bytes.size()}, header);
+  const auto image = Codec<images::Image>::Decode({bytes.data(), bytes.size()}).value;
   EXPECT_EQ(image.bgr.at<cv::Vec3b>(0, 0), cv::Vec3b(3, 2, 1));
+}
+
+TEST(HostileCalibration, FocalLengthsThatNoCameraHasAreRejected) {
+  geometry::CameraCalibration calibration = geometry::GuessCalibration(640, 480, 1.0);
+  for (const double focal_px : {1e-300, 0.0, -500.0, 2e6}) {
+    calibration.focal_px.y() = focal_px;
+    EXPECT_EQ(ReasonFor<geometry::CameraCalibration>(
+                  Codec<geometry::CameraCalibration>::Encode(calibration, 0)),
+              "out_of_range");
+  }
 }
 
 TEST(HostileCalibration, SizesThatNoCameraHasAreRejected) {

@@ -89,6 +89,16 @@ TEST_F(RunServiceTest, NamesAMissingDeviceInOneLineAndEndsWithOne) {
 
 TEST_F(RunServiceTest, EndsWithTwoOnAnUnknownOption) { EXPECT_EQ(Run("", {"--no-such"}), 2); }
 
+TEST_F(RunServiceTest, EndsWithTwoOnASettingWithoutAValue) {
+  EXPECT_EQ(Run("", {"--set", "steps"}), 2);
+  EXPECT_THAT(errors_, HasSubstr("key=value"));
+}
+
+TEST_F(RunServiceTest, EndsWithTwoOnAnEmptyNameOfTheConfiguration) {
+  EXPECT_EQ(Run("", {"-c", ""}), 2);
+  EXPECT_THAT(errors_, HasSubstr("is empty"));
+}
+
 TEST_F(RunServiceTest, ExplainsItselfAndSaysItsVersion) {
   EXPECT_EQ(Run("", {"--help"}), 0);
   EXPECT_THAT(output_, HasSubstr("Counts down."));

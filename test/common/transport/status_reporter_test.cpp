@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "common/messages/hands.h"
+#include "test/support/memory_bus.h"
 
 namespace deixis::transport {
 namespace {
@@ -18,23 +19,14 @@ class StatusReporterTest : public testing::Test {
         kStatusChannel, Delivery::kEvery,
         [this](const ServiceStatus& status) { received_.push_back(status); });
   }
-  static BusOptions Memory() {
-    BusOptions options;
-    options.url = "memq://";
-    return options;
-  }
-  void HandleAll() {
-    while (bus_.Handle(std::chrono::milliseconds{0}) > 0) {
-    }
-  }
-  Bus bus_{Memory()};
+  Bus bus_{test::Memory()};
   std::vector<ServiceStatus> received_;
 };
 
 TEST_F(StatusReporterTest, SaysWhoAndHow) {
   StatusReporter reporter({"hand_tracker", "left"}, bus_, bus_);
   reporter.Report(messages::ServiceState::kDegraded, "no face");
-  HandleAll();
+  test::HandleAll(bus_);
   ASSERT_EQ(received_.size(), 1u);
   EXPECT_EQ(received_[0].service, "hand_tracker");
   EXPECT_EQ(received_[0].instance, "left");
@@ -47,7 +39,7 @@ TEST_F(StatusReporterTest, SaysWhoAndHow) {
 TEST_F(StatusReporterTest, ReportsAtOnceAndThenNotBeforeASecond) {
   StatusReporter reporter({"x", ""}, bus_, bus_);
   for (int i = 0; i < 5; ++i) reporter.ReportIfDue(messages::ServiceState::kRunning, "");
-  HandleAll();
+  test::HandleAll(bus_);
   EXPECT_EQ(received_.size(), 1u);
 }
 
@@ -55,10 +47,10 @@ TEST_F(StatusReporterTest, CarriesTheCountersOfEveryChannel) {
   bus_.Subscribe<Hands>("HANDS", Delivery::kEvery, [](const Hands&) {});
   bus_.Publish("HANDS", Hands{});
   bus_.PublishRaw("HANDS", {nullptr, 0}, {0});
-  HandleAll();
+  test::HandleAll(bus_);
   StatusReporter reporter({"x", ""}, bus_, bus_);
   reporter.Report(messages::ServiceState::kRunning, "");
-  HandleAll();
+  test::HandleAll(bus_);
   ASSERT_EQ(received_.size(), 1u);
   std::int64_t in = 0;
   std::int64_t out = 0;

@@ -5,10 +5,20 @@
 #include <cstdlib>
 
 #include "common/transport/bus.h"
+#include "common/transport/channel_name.h"
 #include "common/transport/sample_window.h"
 
 namespace deixis::transport {
 namespace {
+
+TEST(ChannelFaults, NamesTheKeysOfWhatIsNoChannelAndOfASecondUse) {
+  using Pairs = std::vector<std::pair<std::string, std::string>>;
+  EXPECT_TRUE(ChannelFaults({{"in", "CAMERA"}, {"out", "OBJECTS"}}).empty());
+  EXPECT_EQ(ChannelFaults({{"in", "CAMERA"}, {"out", "CAMERA"}}),
+            (Pairs{{"out", "must be another channel than in"}}));
+  EXPECT_EQ(ChannelFaults({{"in", ""}, {"out", "A B"}}),
+            (Pairs{{"in", kChannelNameRule}, {"out", kChannelNameRule}}));
+}
 
 TEST(Url, GetsAReceiveBufferWhereNoneIsStated) {
   EXPECT_EQ(ResolveUrl("udpm://239.255.1.1:7000?ttl=0", 1000).text,

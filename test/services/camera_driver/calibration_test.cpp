@@ -123,6 +123,13 @@ TEST_F(CalibrationTest, RefusesAFileThatOpenCvCannotRead) {
               ThrowsMessage<config::ConfigError>(HasSubstr("lens.yaml")));
 }
 
+TEST_F(CalibrationTest, SaysThatAFileCannotBeRead) {
+  EXPECT_THAT([] { ReadLensFile("/proc/self/mem"); },
+              ThrowsMessage<config::ConfigError>(HasSubstr("cannot be read: ")));
+  EXPECT_THAT([] { ReadLensFile(std::string(300, 'x')); },
+              ThrowsMessage<config::ConfigError>(HasSubstr("does not exist")));
+}
+
 TEST_F(CalibrationTest, RefusesAFileThatIsNotThere) {
   CalibrationConfig config;
   config.file = (folder_.path() / "missing.yaml").string();

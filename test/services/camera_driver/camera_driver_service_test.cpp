@@ -2,10 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "common/messages/camera_calibration.h"
 #include "common/messages/image.h"
+#include "test/support/memory_bus.h"
 #include "test/support/temporary_folder.h"
 
 namespace deixis::camera_driver {
@@ -13,12 +16,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-transport::BusOptions Memory() {
-  transport::BusOptions options;
-  options.url = "memq://";
-  return options;
-}
 
 class CameraDriverServiceTest : public testing::Test {
  protected:
@@ -33,12 +30,11 @@ class CameraDriverServiceTest : public testing::Test {
   void RunToTheEnd(CameraDriverService& service) {
     while (service.Step() != program::StepResult::kFinished) {
     }
-    while (bus_.Handle(std::chrono::milliseconds(0)) > 0) {
-    }
+    test::HandleAll(bus_);
   }
   test::TemporaryFolder folder_;
   CameraDriverServiceConfig config_;
-  transport::Bus bus_{Memory()};
+  transport::Bus bus_{test::Memory()};
 };
 
 TEST_F(CameraDriverServiceTest, PublishesEveryPictureOfAFileThenFinishes) {
@@ -73,6 +69,48 @@ TEST_F(CameraDriverServiceTest, SaysInItsHealthThatTheCalibrationIsAGuess) {
 TEST_F(CameraDriverServiceTest, DoesNotStartWithoutItsSource) {
   config_.driver.source.path += ".missing";
   EXPECT_THROW(CameraDriverService(config_, bus_, bus_), config::ConfigError);
+}
+
+TEST_F(CameraDriverServiceTest, SumsUpARecordingAtItsEnd) {
+  config_.driver.source.kind = SourceKind::kFolder;
+  config_.driver.source.path = folder_.path().string();
+  config_.driver.source.rate_hz = 10.0;
+  cv::imwrite((folder_.path() / "1.png").string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(9)));
+  folder_.Write("2.png", "this is no picture");
+  CameraDriverService service(config_, bus_, bus_);
+  testing::internal::CaptureStderr();
+  RunToTheEnd(service);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::AllOf(HasSubstr("warning"), HasSubstr("published=1 unreadable=1"),
+                             HasSubstr("2.png")));
+}
+
+TEST_F(CameraDriverServiceTest, FailsWhenNoPictureOfARecordingCanBeRead) {
+  config_.driver.source.kind = SourceKind::kFolder;
+  config_.driver.source.path = folder_.path().string();
+  config_.driver.source.rate_hz = 10.0;
+  folder_.Write("1.png", "this is no picture");
+  CameraDriverService service(config_, bus_, bus_);
+  EXPECT_THAT([&] { RunToTheEnd(service); },
+              testing::ThrowsMessage<config::ConfigError>(
+                  testing::AllOf(HasSubstr("no picture of"), HasSubstr("1 tried"))));
+}
+
+TEST_F(CameraDriverServiceTest, RefusesTimesThatWouldOverflow) {
+  config_.driver.start_time_utime = std::numeric_limits<std::int64_t>::max();
+  config_.driver.source.rate_hz = 1e-300;
+  EXPECT_THAT([this] { config_.Validate(); },
+              testing::ThrowsMessage<config::ConfigError>(
+                  testing::AllOf(HasSubstr("start_time_utime"), HasSubstr("source.rate_hz"))));
+}
+
+TEST_F(CameraDriverServiceTest, RefusesOneChannelForTwoTypes) {
+  config_.calibration_channel = config_.image_channel;
+  config_.driver.camera = std::string("CAM\0ERA", 7);
+  EXPECT_THAT([this] { config_.Validate(); },
+              testing::ThrowsMessage<config::ConfigError>(testing::AllOf(
+                  HasSubstr("'calibration_channel' must be another channel than image_channel"),
+                  HasSubstr("'camera' must be"))));
 }
 
 TEST_F(CameraDriverServiceTest, NamesEveryFaultOfItsConfiguration) {

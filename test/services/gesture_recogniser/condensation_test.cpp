@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "services/gesture_recogniser/core/decision.h"
@@ -52,6 +53,30 @@ TEST(Condensation, WeightsSumToOneAndScalesStayWithinTheirBounds) {
       ASSERT_LE(rate, 1.35F);
     }
   });
+}
+
+/// Weights of samples whose log-density runs from about 0 down to -79.
+TEST(WeighByMotion, ExponentiatesAsExactlyAsItSays) {
+  GestureModel model = TestModels()[0];
+  for (ModelPoint& point : model.points) {
+    point.speed_m_per_s = 1.0;
+    point.speed_spread_m_per_s = 0.4;
+    point.turn_spread_rad = 0.4;
+  }
+  const ModelTable table({model});
+  const ModelTable::Point& point = table.Points(0)[0];
+  const float still = 0.0F;
+  SampleSet samples;
+  samples.Resize(2000);
+  for (std::size_t n = 0; n < samples.size(); ++n) {
+    samples.amplitude[n] = 5.05F * static_cast<float>(n) / static_cast<float>(samples.size());
+  }
+  WeighByMotion(table, {&still, &still, 1, 1.0F / 15.0F}, samples);
+  for (std::size_t n = 0; n < samples.size(); ++n) {
+    const float speed = samples.amplitude[n] * point.scaled_speed;
+    const double exact = std::exp(static_cast<double>(point.log_norm - 0.5F * speed * speed));
+    EXPECT_NEAR(static_cast<double>(samples.weight[n]) / exact, 1.0, 1e-4) << n;
+  }
 }
 
 TEST(Condensation, NamesTheObjectAheadNotTheOneBeside) {

@@ -8,16 +8,11 @@
 #include "common/messages/hands.h"
 #include "common/messages/objects.h"
 #include "test/services/gesture_recogniser/gesture_scene.h"
+#include "test/support/memory_bus.h"
 #include "test/support/temporary_folder.h"
 
 namespace deixis::gesture_recogniser {
 namespace {
-
-transport::BusOptions Memory() {
-  transport::BusOptions options;
-  options.url = "memq://";
-  return options;
-}
 
 class GestureRecogniserServiceTest : public testing::Test {
  protected:
@@ -34,12 +29,8 @@ class GestureRecogniserServiceTest : public testing::Test {
         "GESTURE_STATE", transport::Delivery::kEvery,
         [this](const scene::GestureState& state) { states_.push_back(state); });
   }
-  void HandleAll() {
-    while (bus_.Handle(std::chrono::milliseconds(0)) > 0) {
-    }
-  }
   test::TemporaryFolder folder_;
-  transport::Bus bus_{Memory()};
+  transport::Bus bus_{test::Memory()};
   std::vector<scene::Gesture> gestures_;
   std::vector<scene::GestureState> states_;
 };
@@ -51,7 +42,7 @@ TEST_F(GestureRecogniserServiceTest, TurnsTracksAndObjectsIntoOneEvent) {
   for (double time_s = 0.0; time_s < 4.5; time_s += 1.0 / 15.0, ++frames) {
     bus_.Publish("OBJECTS", scene.Objects(time_s));
     bus_.Publish("HAND_TRACKS", HandAt(time_s, scene.Hand(time_s)));
-    HandleAll();
+    test::HandleAll(bus_);
   }
   EXPECT_EQ(states_.size(), static_cast<std::size_t>(frames));
   ASSERT_EQ(gestures_.size(), 2U);  // Its beginning and its end.
@@ -63,7 +54,7 @@ TEST_F(GestureRecogniserServiceTest, TurnsTracksAndObjectsIntoOneEvent) {
 TEST_F(GestureRecogniserServiceTest, StatesCarryTheTimeOfTheirHands) {
   const GestureRecogniserService service({}, bus_, bus_);
   bus_.Publish("HAND_TRACKS", HandAt(1.25, {100.0, 100.0}));
-  HandleAll();
+  test::HandleAll(bus_);
   ASSERT_EQ(states_.size(), 1U);
   EXPECT_EQ(states_[0].time, At(1.25));
   EXPECT_EQ(states_[0].camera, "test");
@@ -73,8 +64,25 @@ TEST_F(GestureRecogniserServiceTest, SaysThatNoObjectsAreKnown) {
   const GestureRecogniserService service({}, bus_, bus_);
   EXPECT_TRUE(service.health().is_degraded);
   bus_.Publish("OBJECTS", PointingScene().Objects(0.0));
-  HandleAll();
+  test::HandleAll(bus_);
   EXPECT_FALSE(service.health().is_degraded);
+}
+
+TEST_F(GestureRecogniserServiceTest, NamesThePathOfANestedFault) {
+  const auto file = folder_.Write("own.yaml",
+                                  "recogniser:\n  segmental:\n    stroke:\n"
+                                  "      amplitudes: 1\n");
+  EXPECT_THAT([&file] { config::Load<GestureRecogniserServiceConfig>(file); },
+              testing::ThrowsMessage<config::ConfigError>(
+                  testing::HasSubstr("own.yaml:4: key 'recogniser.segmental.stroke.amplitudes'")));
+}
+
+TEST_F(GestureRecogniserServiceTest, RefusesOneChannelForTwoTypes) {
+  GestureRecogniserServiceConfig config;
+  config.gestures_channel = config.hands_channel;
+  EXPECT_THAT([&config] { config.Validate(); },
+              testing::ThrowsMessage<config::ConfigError>(testing::HasSubstr(
+                  "'gestures_channel' must be another channel than hands_channel")));
 }
 
 TEST_F(GestureRecogniserServiceTest, RefusesAModelThatDoesNotExist) {

@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
+#include "services/gesture_recogniser/core/condensation.h"
 #include "services/gesture_recogniser/core/context.h"
 #include "services/gesture_recogniser/core/destination.h"
 #include "services/gesture_recogniser/core/hold.h"
@@ -127,10 +130,8 @@ Target TargetAt(const Eigen::Vector2d& centre_m) {
 
 DestinationDensities Densities(const Arrival& arrival, const Surroundings& surroundings,
                                const std::optional<Eigen::Vector2d>& rest_m) {
-  DestinationDensities densities;
-  Destinations({}, TestModels()[0].target)
-      .Judge(arrival, surroundings, rest_m, scene::Side::kRight, densities);
-  return densities;
+  return Destinations({}, TestModels()[0].target)
+      .Judge(arrival, surroundings, rest_m, scene::Side::kRight);
 }
 
 TEST(Destinations, FavourTheObjectInTheDirectionOfArrival) {
@@ -199,6 +200,27 @@ TEST(ImageScale, ComesFromTheFaceThenTheCameraThenTheConfiguration) {
   EXPECT_FALSE(scale.FaceOf(hands.hands[0], At(60.0)));
 }
 
+TEST(ImageScale, ForgetsFacesThatAreOutOfSight) {
+  ImageScale scale({});
+  for (int i = 0; i < 100; ++i) {
+    scene::Objects objects;
+    objects.time = At(i);
+    objects.objects = {FaceAt({300.0, 90.0})};
+    objects.objects[0].id = i;
+    scale.Observe(objects);
+  }
+  EXPECT_EQ(scale.known_faces(), 6U);  // Of the last 5 s.
+}
+
+TEST(GestureModel, RefusesAFileOfAnotherName) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "gestures");
+  folder.Write("gestures/wave.yaml", ToYaml(TestModels()[0]));
+  setenv("DEIXIS_CONFIG_DIR", folder.path().c_str(), 1);
+  EXPECT_THAT([] { LoadModels({"wave"}); },
+              testing::ThrowsMessage<config::ConfigError>(HasSubstr("'name' is 'approach'")));
+}
+
 TEST(GestureModel, SurvivesBeingWrittenAndRead) {
   const GestureModel model = TestModels()[0];
   const test::TemporaryFolder folder;
@@ -219,6 +241,43 @@ TEST(GestureModel, RefusesSpreadsThatAreNotPositive) {
   } catch (const config::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("points[4].turn_spread_rad"));
   }
+}
+
+TEST(GestureModel, RefusesAFileThatWasCutOff) {
+  GestureModel model = TestModels()[0];
+  model.points.resize(3);
+  EXPECT_THAT([&model] { model.Validate(); },
+              testing::ThrowsMessage<config::ConfigError>(HasSubstr("'points' must be 8 to 1000")));
+}
+
+TEST(GestureModel, RefusesAFolderInItsPlace) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "gestures" / "approach.yaml");
+  setenv("DEIXIS_CONFIG_DIR", folder.path().c_str(), 1);
+  EXPECT_THAT([] { LoadModels({"approach"}); },
+              testing::ThrowsMessage<config::ConfigError>(HasSubstr("is not a file")));
+}
+
+TEST(RecogniserConfig, RefusesWhatWouldTakeForever) {
+  MotionConfig motion;
+  for (const double step_s : {1e-9, 1e-4, 0.0}) {
+    motion.step_s = step_s;
+    EXPECT_THROW(motion.Validate(), config::ConfigError) << step_s;
+  }
+  CondensationConfig as_printed;
+  EXPECT_NO_THROW(as_printed.Validate());
+  as_printed.samples = 10'000'000;
+  EXPECT_THROW(as_printed.Validate(), config::ConfigError);
+  GestureModel model = TestModels()[0];
+  model.duration_s = 1e9;
+  EXPECT_THROW(model.Validate(), config::ConfigError);
+}
+
+TEST(RecogniserConfig, RefusesAScaleThatMakesEverythingVanish) {
+  ImageScaleConfig scale;
+  EXPECT_NO_THROW(scale.Validate());
+  scale.face_height_m = 1e300;
+  EXPECT_THROW(scale.Validate(), config::ConfigError);
 }
 
 TEST(GestureModel, ShippedModelsLoad) {

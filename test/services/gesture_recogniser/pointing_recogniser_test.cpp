@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <random>
+
 #include "test/services/gesture_recogniser/gesture_scene.h"
 
 namespace deixis::gesture_recogniser {
@@ -130,6 +133,69 @@ TEST(PointingRecogniser, StartsAnewWhenTimeJumpsBack) {
   }
 }
 
+/// Events of a hand that points until 2.6 s and is then seen in one more image, at `next_s`.
+std::vector<scene::Gesture> EventsAcrossAJump(double next_s) {
+  const PointingScene scene;
+  PointingRecogniser recogniser({}, TestModels());
+  std::vector<scene::Gesture> events;
+  for (double time_s = 0.0; time_s < 2.6; time_s += 1.0 / 15.0) {
+    recogniser.ObserveObjects(scene.Objects(time_s));
+    const auto gestures = recogniser.ObserveHands(HandAt(time_s, scene.Hand(time_s))).gestures;
+    events.insert(events.end(), gestures.begin(), gestures.end());
+  }
+  const auto gestures = recogniser.ObserveHands(HandAt(next_s, scene.hold)).gestures;
+  events.insert(events.end(), gestures.begin(), gestures.end());
+  return events;
+}
+
+TEST(PointingRecogniser, EndsOpenGesturesWhenTimeJumps) {
+  for (const double next_s : {4.0, 0.5}) {  // A gap; back.
+    const auto events = EventsAcrossAJump(next_s);
+    ASSERT_EQ(events.size(), 2U) << next_s;
+    EXPECT_EQ(events[1].event_id, events[0].event_id);
+    EXPECT_NEAR(SecondsBetween(At(2.6), events[1].end), 0.0, 0.1) << next_s;
+  }
+}
+
+TEST(PointingRecogniser, ForgetsObjectsThatAreNoLongerReported) {
+  PointingRecogniser recogniser({}, TestModels());
+  for (int i = 0; i < 100; ++i) {
+    scene::Objects objects;
+    objects.time = At(i);
+    objects.objects = {ObjectAt(i, {100.0, 100.0})};
+    recogniser.ObserveObjects(objects);
+  }
+  EXPECT_EQ(recogniser.remembered_objects(), 11U);  // Of the last 10 s.
+}
+
+TEST(PointingRecogniser, RefusesASecondGestureUnlessTheMethodKnowsSeveral) {
+  auto models = TestModels();
+  models.push_back(models[0]);
+  models.back().name = "wave";
+  const PointingScene scene;
+  PointingRecogniserConfig config;
+  EXPECT_THROW(PointingRecogniser(config, models), config::ConfigError);
+  config.method = Method::kAsPrinted;
+  EXPECT_NO_THROW(PointingRecogniser(config, models));
+}
+
+TEST(PointingRecogniser, NeverBeginsBeforeTheFirstTimeThereIs) {
+  PointingRecogniserConfig config;
+  config.method = Method::kAsPrinted;
+  PointingRecogniser recogniser(config, TestModels());
+  const PointingScene scene;
+  std::vector<scene::Gesture> events;
+  for (double time_s = 0.0; time_s < 1.5; time_s += 1.0 / 30.0) {
+    const double since_start_s = time_s - SecondsBetween({0}, At(0.0));
+    recogniser.ObserveObjects(scene.Objects(since_start_s));
+    const auto hands = HandAt(since_start_s, scene.Hand(1.6 + time_s));
+    for (const auto& gesture : recogniser.ObserveHands(hands).gestures) events.push_back(gesture);
+  }
+  ASSERT_FALSE(events.empty());
+  EXPECT_LT(events[0].time.microseconds, 600'000);
+  EXPECT_EQ(events[0].start.microseconds, 0);
+}
+
 TEST(PointingRecogniser, SurvivesHandsThatComeAndGoAndChangeTheirId) {
   PointingScene scene;
   PointingRecogniser recogniser({}, TestModels());
@@ -178,6 +244,51 @@ TEST(PointingRecogniser, DropsPositionsThatAreNotFinite) {
   scene::Hands hands = HandAt(0.0, {100.0, 100.0});
   hands.hands[0].centre_px.x() = std::nan("");
   EXPECT_TRUE(recogniser.ObserveHands(hands).state.hypotheses.empty());
+}
+
+/// Places, sizes and covariances anywhere within what messages may say, now tiny and now huge.
+class AnyScene {
+ public:
+  double Pixels() { return (random_() % 2 == 0 ? 1.0 : -1.0) * Size(1e-3); }
+  double Size(double least) {
+    return std::min(1e6, std::max(least, std::pow(10.0, exponent_(random_))));
+  }
+  scene::Objects Objects(double time_s) {
+    scene::Objects objects;
+    objects.time = At(time_s);
+    objects.objects = {ObjectAt(3, {0.0, 0.0}), FaceAt({0.0, 0.0})};
+    objects.objects[0].box = scene::Box{Pixels(), Pixels(), Size(0.0), Size(0.0)};
+    objects.objects[1].box = scene::Box{Pixels(), Pixels(), Size(1.0), Size(1.0)};
+    return objects;
+  }
+  scene::Hands Hands(double time_s) {
+    if (random_() % 8 == 0) place_px_ = {Pixels(), Pixels()};
+    scene::Hands hands = HandAt(time_s, place_px_);
+    hands.hands[0].covariance.setConstant(Pixels() * 1e6);
+    return hands;
+  }
+
+ private:
+  std::mt19937 random_{1};
+  std::uniform_real_distribution<double> exponent_{-3.0, 6.5};
+  Eigen::Vector2d place_px_ = Eigen::Vector2d::Zero();
+};
+
+TEST(PointingRecogniser, StaysFiniteWithinTheBoundsOfWhatMessagesMaySay) {
+  for (const Method method : {Method::kSegmental, Method::kAsPrinted}) {
+    PointingRecogniserConfig config;
+    config.method = method;
+    PointingRecogniser recogniser(config, TestModels());
+    AnyScene scene;
+    for (int i = 0; i < 1500; ++i) {
+      recogniser.ObserveObjects(scene.Objects(i / 15.0));
+      for (const auto& it : recogniser.ObserveHands(scene.Hands(i / 15.0)).state.hypotheses) {
+        ASSERT_TRUE(std::isfinite(it.phase)) << i;
+        ASSERT_TRUE(std::isfinite(it.end_probability)) << i;
+        ASSERT_TRUE(std::isfinite(it.none_probability)) << i;
+      }
+    }
+  }
 }
 
 TEST(PointingRecogniser, AsPrintedNamesTheObjectToo) {

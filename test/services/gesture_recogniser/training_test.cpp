@@ -85,6 +85,16 @@ TEST(Recording, NamesTheLineThatMakesNoSense) {
   }
 }
 
+TEST(Recording, RefusesALineWithMoreWordsThanItHas) {
+  const test::TemporaryFolder folder;
+  try {
+    ReadRecording(folder.Write("a.recording", "recording my walk anna\n"));
+    FAIL() << "accepted";
+  } catch (const config::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a.recording:1: 'recording my walk anna'"));
+  }
+}
+
 TEST(TrackedHands, NoiseDependsOnTheSeedAlone) {
   TrackNoise noise;
   const auto once = TrackedHands(SceneRecording("a"), noise);

@@ -4,18 +4,14 @@
 
 #include "common/messages/image.h"
 #include "common/messages/objects.h"
+#include "test/support/memory_bus.h"
+#include "test/support/temporary_folder.h"
 
 namespace deixis::object_detector {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-transport::BusOptions Memory() {
-  transport::BusOptions options;
-  options.url = "memq://";
-  return options;
-}
 
 class ObjectDetectorServiceTest : public testing::Test {
  protected:
@@ -24,14 +20,10 @@ class ObjectDetectorServiceTest : public testing::Test {
         "OBJECTS", transport::Delivery::kEvery,
         [this](const scene::Objects& objects) { answers_.push_back(objects); });
   }
-  void HandleAll() {
-    while (bus_.Handle(std::chrono::milliseconds(0)) > 0) {
-    }
-  }
   static images::Image Wall(std::int64_t time_us) {
     return {{time_us}, "CAMERA", cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(90))};
   }
-  transport::Bus bus_{Memory()};
+  transport::Bus bus_{test::Memory()};
   ObjectDetectorServiceConfig config_;
   std::vector<scene::Objects> answers_;
 };
@@ -39,7 +31,7 @@ class ObjectDetectorServiceTest : public testing::Test {
 TEST_F(ObjectDetectorServiceTest, AnswersAPictureWithWhatIsKnownAtItsTime) {
   ObjectDetectorService service(config_, bus_, bus_);
   bus_.Publish("CAMERA", Wall(77));
-  HandleAll();
+  test::HandleAll(bus_);
   ASSERT_EQ(answers_.size(), 1u);
   EXPECT_EQ(answers_[0].time.microseconds, 77);
   EXPECT_EQ(answers_[0].camera, "CAMERA");
@@ -50,9 +42,9 @@ TEST_F(ObjectDetectorServiceTest, GoesOnAfterAMessageThatIsNoPicture) {
   ObjectDetectorService service(config_, bus_, bus_);
   const std::vector<std::uint8_t> junk(40, 0xAB);
   bus_.PublishRaw("CAMERA", {junk.data(), junk.size()}, {1});
-  HandleAll();
+  test::HandleAll(bus_);
   bus_.Publish("CAMERA", Wall(78));
-  HandleAll();
+  test::HandleAll(bus_);
   ASSERT_EQ(answers_.size(), 1u);
   EXPECT_EQ(answers_[0].time.microseconds, 78);
 }
@@ -60,6 +52,21 @@ TEST_F(ObjectDetectorServiceTest, GoesOnAfterAMessageThatIsNoPicture) {
 TEST_F(ObjectDetectorServiceTest, DoesNotStartWithoutItsCascade) {
   config_.detectors.cascades.trained[0].file = "missing.xml";
   EXPECT_THROW(ObjectDetectorService(config_, bus_, bus_), config::ConfigError);
+}
+
+TEST_F(ObjectDetectorServiceTest, WarnsOfAPlacesFileWithoutPlaces) {
+  const test::TemporaryFolder folder;
+  config_.detectors.places.file = folder.Write("places.yaml", "").string();
+  testing::internal::CaptureStderr();
+  ObjectDetectorService service(config_, bus_, bus_);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("no places are known"));
+}
+
+TEST_F(ObjectDetectorServiceTest, RefusesToPublishOnItsInput) {
+  config_.objects_channel = config_.image_channel;
+  EXPECT_THAT([this] { config_.Validate(); },
+              testing::ThrowsMessage<config::ConfigError>(
+                  HasSubstr("'objects_channel' must be another channel than image_channel")));
 }
 
 TEST_F(ObjectDetectorServiceTest, NamesEveryFaultOfItsConfiguration) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "common/messages/hands.h"
 #include "common/messages/objects.h"
@@ -51,6 +52,15 @@ class OfflineHostTest : public testing::Test {
     host.Add(std::make_unique<Echo>("B", "C", host.bus()));
     Bus log(Log(Path(output)));
     return host.Run(input, log, content, [](double) {});
+  }
+  /// Of each of the `count` events of the input, all being alike.
+  std::int64_t EventBytes(int count) {
+    return static_cast<std::int64_t>(std::filesystem::file_size(Path("in.lcmlog"))) / count;
+  }
+  void Overwrite(std::int64_t offset, const std::string& bytes) {
+    std::fstream file(Path("in.lcmlog"), std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(offset);
+    file << bytes;
   }
   std::vector<std::string> Events(const std::string& name = "out.lcmlog") {
     std::vector<std::string> events;
@@ -132,7 +142,69 @@ TEST_F(OfflineHostTest, UsesALogThatIsCutOffUpToItsLastWholeEvent) {
   std::filesystem::resize_file(Path("in.lcmlog"), size - 5);
   const Summary summary = Run();
   EXPECT_EQ(summary.events_read, 1);
-  EXPECT_EQ(summary.unreadable_bytes, static_cast<std::int64_t>(size) / 2 - 5);
+  ASSERT_EQ(summary.damaged.size(), 1u);
+  EXPECT_EQ(summary.damaged[0].offset, static_cast<std::int64_t>(size) / 2);
+  EXPECT_EQ(summary.damaged[0].bytes, static_cast<std::int64_t>(size) / 2 - 5);
+}
+
+TEST_F(OfflineHostTest, GoesOnBehindNoiseInTheMiddle) {
+  WriteInput({{"A", 10}, {"A", 20}, {"A", 30}, {"A", 40}});
+  const std::int64_t event = EventBytes(4);
+  Overwrite(event + 3, "noise over the second event's head");
+  const Summary summary = Run(OutputContent::kResultsOnly);
+  EXPECT_THAT(Events(), ElementsAre("B@30", "C@30", "B@40", "C@40"));  // The first may be short.
+  ASSERT_EQ(summary.damaged.size(), 1u);
+  EXPECT_EQ(summary.damaged[0].offset, 0);
+  EXPECT_EQ(summary.damaged[0].bytes, 2 * event);
+}
+
+TEST_F(OfflineHostTest, GoesOnBehindALengthThatIsWrong) {
+  WriteInput({{"A", 10}, {"A", 20}, {"A", 30}, {"A", 40}});
+  const std::int64_t event = EventBytes(4);
+  Overwrite(event + 24, std::string("\x7f\0\0\0", 4));
+  const Summary summary = Run();
+  EXPECT_EQ(summary.events_read, 3);
+  ASSERT_EQ(summary.damaged.size(), 1u);
+  EXPECT_EQ(summary.damaged[0].offset, event);
+  EXPECT_EQ(summary.damaged[0].bytes, event);
+}
+
+TEST_F(OfflineHostTest, GoesOnBehindNoiseAtTheFront) {
+  WriteInput({{"A", 10}, {"A", 20}});
+  const std::string log = test::FileContent(Path("in.lcmlog"));
+  folder_.Write("in.lcmlog", std::string(5000, '\x5a') + log);
+  const Summary summary = Run();
+  EXPECT_EQ(summary.events_read, 2);
+  ASSERT_EQ(summary.damaged.size(), 1u);
+  EXPECT_EQ(summary.damaged[0].bytes, 5000);
+}
+
+TEST_F(OfflineHostTest, PassesOverEventsWithoutAChannel) {
+  WriteInput({{"A", 10}, {"A", 20}});
+  const std::string log = test::FileContent(Path("in.lcmlog"));
+  const std::string nameless = std::string("\xED\xA1\xDA\x01", 4) + std::string(24, '\0');
+  folder_.Write("in.lcmlog", log + nameless + log);
+  const Summary summary = Run();
+  EXPECT_EQ(summary.events_read, 4);
+  EXPECT_EQ(summary.nameless_events, 1);
+  EXPECT_TRUE(summary.damaged.empty());
+}
+
+TEST_F(OfflineHostTest, ReadsALogOfNothingButEventHeads) {
+  std::string heads;
+  for (int i = 0; i < 20'000; ++i) heads += std::string("\xED\xA1\xDA\x01", 4);
+  folder_.Write("in.lcmlog", heads);
+  const Summary summary = Run();
+  EXPECT_EQ(summary.events_read, 0);
+  ASSERT_EQ(summary.damaged.size(), 1u);
+  EXPECT_EQ(summary.damaged[0].bytes, 80'000);
+}
+
+TEST_F(OfflineHostTest, NamesChannelsThatTheInputHasNot) {
+  WriteInput({{"OTHER", 10}});
+  const Summary summary = Run();
+  EXPECT_THAT(summary.unheard_channels, ElementsAre("A"));  // B comes from a service.
+  EXPECT_THAT(summary.input_channels, ElementsAre("OTHER"));
 }
 
 TEST_F(OfflineHostTest, StopsAtOnceWhenTheOutputCannotBeWritten) {

@@ -36,6 +36,13 @@ TEST_F(PictureFilesTest, MakesItsFolderAndNamesAPictureByItsGesture) {
   EXPECT_EQ(cv::imread((folder / "gesture_3_lamp_1500000.png").string()).size(), cv::Size(6, 4));
 }
 
+TEST_F(PictureFilesTest, NamesKeyAndFolderOfAFolderThatCannotBeMade) {
+  const std::string longest(300, 'x');
+  EXPECT_THAT([&] { PictureFiles files(folder_.path() / longest); },
+              testing::ThrowsMessage<config::ConfigError>(
+                  testing::AllOf(testing::HasSubstr("save_folder"), testing::HasSubstr(longest))));
+}
+
 TEST_F(PictureFilesTest, ReplacesTheLatestPicture) {
   const PictureFiles files(folder_.path());
   files.WriteLatest(picture_);
@@ -51,6 +58,22 @@ TEST_F(PictureFilesTest, StaysInItsFolderWhateverALabelSays) {
   PictureFiles(folder).WriteGesture(Event(""), picture_);
   EXPECT_EQ(Files(folder).size(), 3u);
   EXPECT_EQ(Files(folder_.path()).size(), 3u);
+}
+
+TEST_F(PictureFilesTest, SaysThatAPictureIsLostAlthoughAnOlderOneIsThere) {
+  const PictureFiles files(folder_.path());
+  files.WriteLatest(picture_);
+  // A folder where the unfinished picture would be written, which no right of root's gets round.
+  std::filesystem::create_directories(folder_.path() / ".latest.png.part" / "occupied");
+  EXPECT_THROW(files.WriteLatest(picture_), PictureNotWritten);
+  EXPECT_THAT(Files(folder_.path()), testing::ElementsAre("latest.png"));
+}
+
+TEST_F(PictureFilesTest, LeavesNoUnfinishedPictureBehind) {
+  std::filesystem::create_directories(folder_.path() / "latest.png" / "occupied");
+  EXPECT_THAT([this] { PictureFiles(folder_.path()).WriteLatest(picture_); },
+              testing::ThrowsMessage<PictureNotWritten>(testing::HasSubstr("latest.png")));
+  EXPECT_TRUE(Files(folder_.path()).empty());
 }
 
 TEST_F(PictureFilesTest, RefusesAFolderThatCannotBeMade) {

@@ -5,6 +5,7 @@
 #include "common/messages/gesture.h"
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
+#include "test/support/memory_bus.h"
 #include "test/support/temporary_folder.h"
 
 namespace deixis::viewer {
@@ -13,23 +14,12 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-transport::BusOptions Memory() {
-  transport::BusOptions options;
-  options.url = "memq://";
-  return options;
-}
-
 class ViewerServiceTest : public testing::Test {
  protected:
   ViewerServiceTest() { config_.save_folder = folder_.path().string(); }
-
-  void HandleAll() {
-    while (bus_.Handle(std::chrono::milliseconds(0)) > 0) {
-    }
-  }
   void SendImage(std::int64_t time_us) {
     bus_.Publish("CAMERA", images::Image{{time_us}, "CAMERA", cv::Mat::zeros(48, 64, CV_8UC3)});
-    HandleAll();
+    test::HandleAll(bus_);
   }
   void SendGesture(std::int64_t event_id, std::int64_t time_us, std::int64_t end_us) {
     scene::Gesture gesture;
@@ -41,14 +31,14 @@ class ViewerServiceTest : public testing::Test {
     gesture.object_id = 2;
     gesture.object_label = "lamp";
     bus_.Publish("GESTURES", gesture);
-    HandleAll();
+    test::HandleAll(bus_);
   }
   bool Exists(const std::string& name) const {
     return std::filesystem::exists(folder_.path() / name);
   }
   test::TemporaryFolder folder_;
   ViewerServiceConfig config_;
-  transport::Bus bus_{Memory()};
+  transport::Bus bus_{test::Memory()};
 };
 
 TEST_F(ViewerServiceTest, WritesTheLatestPicture) {
@@ -75,6 +65,28 @@ TEST_F(ViewerServiceTest, WritesOnePicturePerGesture) {
   SendImage(1'100'000);
   SendGesture(1, 1'100'000, 1'090'000);  // The same gesture has ended.
   EXPECT_FALSE(Exists("gesture_1_lamp_1100000.png"));
+}
+
+TEST_F(ViewerServiceTest, KnowsTheEndOfAGestureAfterAnotherHasBegun) {
+  ViewerService service(config_, bus_, bus_);
+  SendImage(1'000'000);
+  SendGesture(1, 1'000'000, 0);
+  SendGesture(2, 1'000'000, 0);
+  SendImage(1'100'000);
+  SendGesture(1, 1'100'000, 1'090'000);
+  EXPECT_TRUE(Exists("gesture_2_lamp_1000000.png"));
+  EXPECT_FALSE(Exists("gesture_1_lamp_1100000.png"));
+}
+
+TEST_F(ViewerServiceTest, SaysWhilePicturesCannotBeWritten) {
+  ViewerService service(config_, bus_, bus_);
+  std::filesystem::create_directories(folder_.path() / "latest.png" / "occupied");
+  SendImage(1'000'000);
+  EXPECT_TRUE(service.health().is_degraded);
+  EXPECT_THAT(service.health().text, HasSubstr("latest.png"));
+  std::filesystem::remove_all(folder_.path() / "latest.png");
+  SendImage(2'000'000);
+  EXPECT_FALSE(service.health().is_degraded);
 }
 
 TEST_F(ViewerServiceTest, GoesOnWithoutThePictureOfAGesture) {

@@ -42,19 +42,40 @@ SharedVideo OpenUrl(const SourceConfig& config) {
   return video->open(config.path) ? video : nullptr;
 }
 
-ReadLive ReaderOf(const SharedVideo& video, std::function<Timestamp()> capture_time) {
-  if (!video) return {};
-  return [video, capture_time = std::move(capture_time)]() -> std::optional<LivePicture> {
-    if (!video->grab()) return std::nullopt;
-    LivePicture picture;
-    picture.time = capture_time();
-    // A picture that was grabbed but cannot be decoded is handed on empty and counted there.
-    if (!video->retrieve(picture.bgr)) picture.bgr.release();
-    return picture;
-  };
+// OpenCV's backends throw at some faults and return false at others; both mean a lost camera.
+std::optional<Timestamp> TimeOfGrab(cv::VideoCapture& video,
+                                    const std::function<Timestamp()>& capture_time) {
+  try {
+    if (!video.grab()) return std::nullopt;
+    return capture_time();
+  } catch (const cv::Exception&) {
+    return std::nullopt;
+  }
+}
+
+// A picture that was grabbed but cannot be decoded is handed on empty and counted there.
+cv::Mat Retrieve(cv::VideoCapture& video) {
+  cv::Mat bgr;
+  try {
+    if (!video.retrieve(bgr)) return {};
+  } catch (const cv::Exception&) {
+    return {};
+  }
+  return bgr;
 }
 
 }  // namespace
+
+ReadLive ReaderOf(std::shared_ptr<cv::VideoCapture> video,
+                  std::function<Timestamp()> capture_time) {
+  if (!video) return {};
+  return [video = std::move(video),
+          capture_time = std::move(capture_time)]() -> std::optional<LivePicture> {
+    const auto time = TimeOfGrab(*video, capture_time);
+    if (!time) return std::nullopt;
+    return LivePicture{*time, Retrieve(*video)};
+  };
+}
 
 Capture DeviceCapture(const SourceConfig& config, const Clocks& clocks) {
   const auto open = [config, clocks] {

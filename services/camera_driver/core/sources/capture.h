@@ -1,11 +1,16 @@
 #pragma once
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
 #include "services/camera_driver/core/clocks.h"
 #include "services/camera_driver/core/sources/sources.h"
+
+namespace cv {
+class VideoCapture;
+}
 
 namespace deixis::camera_driver {
 
@@ -25,6 +30,10 @@ struct Capture {
   std::string cure;                             ///< What to do when it cannot be opened.
   std::chrono::milliseconds first_retry{1000};  ///< Doubled with every try that fails, up to 30 s.
 };
+
+/// Reads an open `video` (empty = not open: gives an empty function). Neither a camera that OpenCV
+/// throws away nor a picture that it cannot decode throws: the one is lost, the other empty.
+ReadLive ReaderOf(std::shared_ptr<cv::VideoCapture> video, std::function<Timestamp()> capture_time);
 
 Capture DeviceCapture(const SourceConfig& config, const Clocks& clocks);
 Capture UrlCapture(const SourceConfig& config, const Clocks& clocks);

@@ -17,6 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPeriodOfSinglePicture_s = 1.0;
+constexpr double kFarthest_s =
+    1e11;  // Of a time from 0: the year 5000, in microseconds since 1970.
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
@@ -93,11 +95,13 @@ TimedFile ParseTimedFile(const std::string& line, const fs::path& file, int numb
     std::size_t used = 0;
     const std::string field = line.substr(comma + 1);
     const double time_s = std::stod(field, &used);
-    if (used == field.size() && std::isfinite(time_s)) return {line.substr(0, comma), time_s};
+    if (used == field.size() && std::abs(time_s) <= kFarthest_s) {
+      return {line.substr(0, comma), time_s};
+    }
   } catch (const std::exception&) {
     // Falls through to the one message for all that is not a number.
   }
-  FailAt(file, number, "time_s is not a number of seconds");
+  FailAt(file, number, "time_s is not a number of seconds (1e11 at most)");
 }
 
 std::vector<TimedFile> ReadTimes(const fs::path& file) {
@@ -186,6 +190,7 @@ Grab FolderSource::Next() {
     std::optional<Picture> picture = ReadPicture(entries_[index].file);
     if (!picture) {
       ++corrupt_;
+      last_corrupt_ = entries_[index].file.string();
       continue;
     }
     picture->time = entries_[index].time;
@@ -198,6 +203,7 @@ Grab FolderSource::Next() {
 SourceStatus FolderSource::status() const {
   SourceStatus status;
   status.corrupt = corrupt_;
+  status.last_corrupt = last_corrupt_;
   return status;
 }
 

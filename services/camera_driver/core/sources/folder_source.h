@@ -33,6 +33,7 @@ class FolderSource final : public Source {
   double period_s_;  ///< 0 = from the entries' times.
   std::size_t next_ = 0;
   std::int64_t corrupt_ = 0;
+  std::string last_corrupt_;
 };
 
 }  // namespace deixis::camera_driver

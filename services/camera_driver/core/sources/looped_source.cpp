@@ -10,7 +10,8 @@ LoopedSource::LoopedSource(std::function<std::unique_ptr<Source>()> open)
 
 Grab LoopedSource::Next() {
   Grab grab = source_->Next();
-  if (grab.state == SourceState::kFinished && pictures_in_round_ > 0) {
+  const bool has_time_left = next_round_start_ < kLatestTime;
+  if (grab.state == SourceState::kFinished && pictures_in_round_ > 0 && has_time_left) {
     BeginNextRound();
     grab = source_->Next();
   }

@@ -12,7 +12,8 @@ class LoopedSource final : public Source {
  public:
   explicit LoopedSource(std::function<std::unique_ptr<Source>()> open);
 
-  Grab Next() override;  ///< kFinished only when a round gave no picture at all.
+  Grab Next()
+      override;  ///< kFinished only when a round gave no picture at all, or time is up (2^59).
   SourceStatus status() const override;
 
  private:

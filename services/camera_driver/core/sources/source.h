@@ -9,6 +9,10 @@
 
 namespace deixis::camera_driver {
 
+/// The latest time that a recording may have, in itself and where it starts: the sum of both still
+/// is a time that receivers take (below 2^60).
+inline constexpr Timestamp kLatestTime{std::int64_t{1} << 59};
+
 /// One picture as a source gives it.
 struct Picture {
   Timestamp time;         ///< Live: capture time. Recorded: time since the recording began.
@@ -34,7 +38,8 @@ struct SourceStatus {
       trouble;  ///< What is wrong now ("device lost, trying again in 4 s"); empty = nothing.
   std::int64_t skipped =
       0;  ///< Live pictures that a newer one replaced before they were asked for.
-  std::int64_t corrupt = 0;  ///< Pictures that were there but could not be decoded.
+  std::int64_t corrupt = 0;  ///< Pictures that were to be there but could not be read.
+  std::string last_corrupt;  ///< File of the last one of these; empty when it has none of its own.
 };
 
 /// Where pictures come from: a camera, a stream, a file, a folder.

@@ -31,7 +31,8 @@ void SourceConfig::Check(config::Faults& faults) const {
   faults.Require(!path.empty(), "source.path", "is empty; name a device, URL, file or folder");
   faults.Require(width_px >= 0, "source.width_px", "must not be negative");
   faults.Require(height_px >= 0, "source.height_px", "must not be negative");
-  faults.Require(rate_hz >= 0.0 && rate_hz <= 1000.0, "source.rate_hz", "must lie in 0..1000");
+  const bool is_rate = rate_hz >= kLowestRate_hz && rate_hz <= 1000.0;
+  faults.Require(rate_hz == 0.0 || is_rate, "source.rate_hz", "must be 0 or lie in 0.001..1000");
   faults.Require(fourcc.empty() || fourcc.size() == 4, "source.fourcc",
                  "must be empty or four letters such as MJPG");
   faults.Require(!pattern.empty(), "source.pattern", "is empty; '*' takes every picture");

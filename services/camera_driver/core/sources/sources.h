@@ -19,6 +19,9 @@ inline auto EnumNames(SourceKind) {
                                                          {"folder", SourceKind::kFolder}};
 }
 
+/// Slower recordings are none.
+inline constexpr double kLowestRate_hz = 0.001;
+
 struct SourceConfig {
   SourceKind kind = SourceKind::kDevice;  ///< What `path` is.
   std::string path = "0";  ///< Device number or /dev/videoN, URL or GStreamer text, file, folder.

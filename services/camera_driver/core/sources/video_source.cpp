@@ -9,6 +9,7 @@ namespace deixis::camera_driver {
 namespace {
 
 constexpr double kUsualRateHz = 30.0;  // Where a file states no rate at all.
+constexpr double kLongest_s = 1e9;     // A later time in a file is damage.
 constexpr int kMaxDamagedInARow = 30;  // Then the rest of the file counts as lost.
 
 // FFmpeg where it is there: trying the others in turn takes long and loads all of GStreamer.
@@ -34,7 +35,7 @@ cv::VideoCapture Open(const std::string& path) {
 double PeriodOf(const cv::VideoCapture& video, double rate_hz) {
   if (rate_hz > 0.0) return 1.0 / rate_hz;
   const double stated_hz = video.get(cv::CAP_PROP_FPS);
-  return 1.0 / (stated_hz > 0.0 && stated_hz < 1000.0 ? stated_hz : kUsualRateHz);
+  return 1.0 / (stated_hz >= kLowestRate_hz && stated_hz < 1000.0 ? stated_hz : kUsualRateHz);
 }
 
 }  // namespace
@@ -80,8 +81,7 @@ Timestamp VideoSource::TimeOfThisPicture() {
     return {};
   }
   const double own_time_s = file_time_s - first_file_time_s_;
-  const bool is_usable =
-      keeps_file_times_ && std::isfinite(own_time_s) && own_time_s > last_time_s_;
+  const bool is_usable = keeps_file_times_ && own_time_s > last_time_s_ && own_time_s <= kLongest_s;
   last_time_s_ = is_usable ? own_time_s : last_time_s_ + (1 + damaged_since_last_) * period_s_;
   damaged_since_last_ = 0;
   return {std::llround(1e6 * last_time_s_)};

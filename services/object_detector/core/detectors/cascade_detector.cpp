@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "common/config/plain_text.h"
+
 namespace deixis::object_detector {
 namespace {
 
@@ -28,33 +30,28 @@ cv::Rect SearchArea(const Box& box, cv::Size picture) {
   return area & cv::Rect({0, 0}, picture);
 }
 
-/// All answers close to `box`, of about its size, pixels of `grey`.
-std::vector<CascadeHit> FindAround(const Box& box, const cv::Mat& grey, int min_neighbours,
-                                   Cascade& cascade) {
-  const cv::Rect area = SearchArea(box, grey.size());
-  if (area.empty()) return {};
-  std::vector<CascadeHit> hits =
-      cascade.Find(grey(area), kSmallerLimit * box.height_px, kLargerLimit * box.height_px,
-                   kFineScaleStep, min_neighbours);
-  for (CascadeHit& hit : hits) {
-    hit.box.x_px += area.x;
-    hit.box.y_px += area.y;
-  }
-  return hits;
+/// Which way an object looks, against the pictures that its cascade was trained on.
+enum class Facing { kAsTrained, kMirrored };
+
+cv::Mat Mirrored(const cv::Mat& picture) {
+  cv::Mat mirrored;
+  cv::flip(picture, mirrored, 1);
+  return mirrored;
 }
 
-/// The same for an object that looks the other way.
-std::vector<CascadeHit> FindAroundMirrored(const Box& box, const cv::Mat& grey, int min_neighbours,
-                                           Cascade& cascade) {
+/// All answers close to `box`, of about its size, pixels of `grey`.
+std::vector<CascadeHit> FindAround(const Box& box, const cv::Mat& grey, int min_neighbours,
+                                   Cascade& cascade, Facing facing = Facing::kAsTrained) {
   const cv::Rect area = SearchArea(box, grey.size());
   if (area.empty()) return {};
-  cv::Mat mirrored;
-  cv::flip(grey(area), mirrored, 1);
+  const bool is_mirrored = facing == Facing::kMirrored;
+  const cv::Mat picture = is_mirrored ? Mirrored(grey(area)) : grey(area);
   std::vector<CascadeHit> hits =
-      cascade.Find(mirrored, kSmallerLimit * box.height_px, kLargerLimit * box.height_px,
+      cascade.Find(picture, kSmallerLimit * box.height_px, kLargerLimit * box.height_px,
                    kFineScaleStep, min_neighbours);
   for (CascadeHit& hit : hits) {
-    hit.box.x_px = area.x + (area.width - hit.box.x_px - hit.box.width_px);
+    if (is_mirrored) hit.box.x_px = area.width - hit.box.x_px - hit.box.width_px;
+    hit.box.x_px += area.x;
     hit.box.y_px += area.y;
   }
   return hits;
@@ -96,7 +93,7 @@ scene::Visibility VisibilityOf(const ObjectTrack& track, cv::Size picture) {
 void CascadesConfig::Check(config::Faults& faults) const {
   for (std::size_t i = 0; i < trained.size(); ++i) {
     const std::string key = "cascades.trained[" + std::to_string(i) + "].";
-    faults.Require(!trained[i].label.empty(), key + "label", "is empty; say what it finds");
+    faults.Require(config::IsPlainText(trained[i].label), key + "label", config::kPlainTextRule);
     faults.Require(!trained[i].file.empty(), key + "file", "is empty; name a cascade");
     faults.Require(trained[i].neighbours_new >= 1, key + "neighbours_new", "must be at least 1");
     faults.Require(trained[i].neighbours_known >= 1, key + "neighbours_known",
@@ -149,7 +146,7 @@ std::vector<CascadeHit> CascadeDetector::FindKnown(const ObjectTrack& track, con
   std::vector<CascadeHit> hits = FindAround(track.box, grey, neighbours, cascade_);
   for (Cascade& further : further_cascades_) {
     if (hits.empty()) hits = FindAround(track.box, grey, neighbours, further);
-    if (hits.empty()) hits = FindAroundMirrored(track.box, grey, neighbours, further);
+    if (hits.empty()) hits = FindAround(track.box, grey, neighbours, further, Facing::kMirrored);
   }
   return hits;
 }

@@ -6,6 +6,7 @@
 #include "common/config/config.h"
 #include "services/object_detector/core/cascade.h"
 #include "services/object_detector/core/detectors/detector.h"
+#include "services/object_detector/core/object_kind_names.h"
 #include "services/object_detector/core/object_tracks.h"
 #include "services/object_detector/core/sliced_scan.h"
 

@@ -10,23 +10,20 @@ void DetectorsConfig::Check(config::Faults& faults) const {
   every_places.Check(faults);
 }
 
-std::vector<std::unique_ptr<Detector>> MakeDetectors(const DetectorsConfig& config,
-                                                     const std::function<int()>& new_id) {
+Detectors MakeDetectors(const DetectorsConfig& config, const std::function<int()>& new_id) {
   // The structured binding fails to compile when a kind is added and not made here.
   const auto& [cascades, places] = config;
-  std::vector<std::unique_ptr<Detector>> detectors;
+  Detectors detectors;
   if (!places.file.empty()) {
-    detectors.push_back(std::make_unique<PlaceDetector>(LoadPlaces(places.file, kFirstTrackId)));
+    PlacesFile file = LoadPlaces(places.file, kFirstTrackId);
+    detectors.frame = file.frame;
+    detectors.remark = RemarkOn(file);
+    detectors.all.push_back(std::make_unique<PlaceDetector>(std::move(file)));
   }
   for (const CascadeConfig& cascade : cascades.trained) {
-    detectors.push_back(std::make_unique<CascadeDetector>(cascade, cascades, new_id));
+    detectors.all.push_back(std::make_unique<CascadeDetector>(cascade, cascades, new_id));
   }
   return detectors;
-}
-
-std::string FrameOfPositions(const DetectorsConfig& config) {
-  if (config.places.file.empty()) return "";
-  return LoadPlaces(config.places.file, kFirstTrackId).frame;
 }
 
 }  // namespace deixis::object_detector

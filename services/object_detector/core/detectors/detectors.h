@@ -26,12 +26,14 @@ struct DetectorsConfig {
 /// Places keep the ids of their file, which lie below this; tracked objects count from here.
 inline constexpr int kFirstTrackId = 1000;
 
+struct Detectors {
+  std::vector<std::unique_ptr<Detector>> all;
+  std::string frame;   ///< Of the places' positions; empty when there are none.
+  std::string remark;  ///< What has to be known about the places; empty = nothing.
+};
+
 /// Makes the detectors that `config` asks for: the one place that knows all kinds. `new_id` numbers
 /// tracked objects. Throws ConfigError when a cascade or a places file cannot be read.
-std::vector<std::unique_ptr<Detector>> MakeDetectors(const DetectorsConfig& config,
-                                                     const std::function<int()>& new_id);
-
-/// Frame of the places' positions; empty when there are none.
-std::string FrameOfPositions(const DetectorsConfig& config);
+Detectors MakeDetectors(const DetectorsConfig& config, const std::function<int()>& new_id);
 
 }  // namespace deixis::object_detector

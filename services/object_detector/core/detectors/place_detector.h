@@ -4,6 +4,7 @@
 
 #include "common/config/config.h"
 #include "services/object_detector/core/detectors/detector.h"
+#include "services/object_detector/core/object_kind_names.h"
 
 namespace deixis::object_detector {
 
@@ -56,6 +57,10 @@ struct PlacesFile {
   void Validate() const;
 };
 
+/// What has to be known about a places file that is right: it has no places, or two of one label;
+/// empty = nothing.
+std::string RemarkOn(const PlacesFile& file);
+
 /// Reads a places file. Throws ConfigError, also when an id is not below `first_track_id`.
 PlacesFile LoadPlaces(const std::string& name, int first_track_id);
 
@@ -72,14 +77,3 @@ class PlaceDetector final : public Detector {
 };
 
 }  // namespace deixis::object_detector
-
-namespace deixis::scene {
-
-inline auto EnumNames(ObjectKind) {
-  return std::vector<std::pair<std::string, ObjectKind>>{{"face", ObjectKind::kFace},
-                                                         {"object", ObjectKind::kObject},
-                                                         {"marker", ObjectKind::kMarker},
-                                                         {"place", ObjectKind::kPlace}};
-}
-
-}  // namespace deixis::scene

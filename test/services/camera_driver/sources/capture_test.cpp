@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/videoio.hpp>
+
 namespace deixis::camera_driver {
 namespace {
 
@@ -31,6 +33,46 @@ TEST(CaptureTime, IsNowWithoutAStamp) {
 TEST(CaptureTime, IsNowWhenTheStampIsOfAnUnknownClock) {
   EXPECT_EQ(CaptureTime(123.0, FixedClocks()).microseconds, kWall_us);
   EXPECT_EQ(CaptureTime(1e-3 * (kMonotonic_us + 90'000), FixedClocks()).microseconds, kWall_us);
+}
+
+/// A camera whose backend throws where the test says so.
+class ThrowingCamera final : public cv::VideoCapture {
+ public:
+  enum class At { kNever, kGrab, kRetrieve };
+  explicit ThrowingCamera(At at) : at_(at) {}
+  bool grab() override {
+    if (at_ == At::kGrab) CV_Error(cv::Error::StsError, "unplugged");
+    return true;
+  }
+  bool retrieve(cv::OutputArray image, int) override {
+    if (at_ == At::kRetrieve) CV_Error(cv::Error::StsError, "not decodable");
+    cv::Mat(4, 4, CV_8UC3, cv::Scalar::all(1)).copyTo(image);
+    return true;
+  }
+
+ private:
+  At at_;
+};
+
+std::optional<LivePicture> ReadFrom(ThrowingCamera::At at) {
+  return ReaderOf(std::make_shared<ThrowingCamera>(at), FixedClocks().wall)();
+}
+
+TEST(ReaderOf, ReadsAPictureWithItsTime) {
+  const auto picture = ReadFrom(ThrowingCamera::At::kNever);
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->time.microseconds, kWall_us);
+  EXPECT_EQ(picture->bgr.cols, 4);
+}
+
+TEST(ReaderOf, TakesAnExceptionWhenGrabbingForALostCamera) {
+  EXPECT_FALSE(ReadFrom(ThrowingCamera::At::kGrab));
+}
+
+TEST(ReaderOf, TakesAnExceptionWhenDecodingForAPictureThatIsCorrupt) {
+  const auto picture = ReadFrom(ThrowingCamera::At::kRetrieve);
+  ASSERT_TRUE(picture);
+  EXPECT_TRUE(picture->bgr.empty());
 }
 
 TEST(DeviceCapture, GivesNoReaderForADeviceThatIsNotThere) {

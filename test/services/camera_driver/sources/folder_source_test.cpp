@@ -99,6 +99,15 @@ TEST_F(FolderSourceTest, CountsCorruptPicturesAndGoesOn) {
   EXPECT_EQ(source.status().corrupt, 2);
 }
 
+TEST_F(FolderSourceTest, NamesAFileOfItsTableThatIsMissing) {
+  AddPicture("a.png", 10);
+  folder_.Write("times.csv", "file,time_s\na.png,1.0\nb.png,2.0\n");
+  FolderSource source(Config(0.0));
+  EXPECT_THAT(Greys(source), ElementsAre(10));
+  EXPECT_EQ(source.status().corrupt, 1);
+  EXPECT_THAT(source.status().last_corrupt, HasSubstr("b.png"));
+}
+
 TEST_F(FolderSourceTest, KeepsTheFileOfAJpegOnly) {
   AddPicture("1.jpg", 10);
   AddPicture("2.png", 20);
@@ -133,6 +142,9 @@ TEST_F(FolderSourceTest, NamesTheLineOfABadTable) {
   folder_.Write("times.csv", "file,time_s\na.png,soon\n");
   EXPECT_THAT([this] { FolderSource source(Config(0.0)); },
               ThrowsMessage<config::ConfigError>(HasSubstr("times.csv:2")));
+  folder_.Write("times.csv", "file,time_s\na.png,1.0\na.png,1e300\n");
+  EXPECT_THAT([this] { FolderSource source(Config(0.0)); },
+              ThrowsMessage<config::ConfigError>(HasSubstr("times.csv:3")));
   folder_.Write("times.csv", "a.png,1.0\n");
   EXPECT_THAT([this] { FolderSource source(Config(0.0)); },
               ThrowsMessage<config::ConfigError>(HasSubstr("header")));

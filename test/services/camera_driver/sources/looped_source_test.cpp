@@ -29,6 +29,16 @@ TEST(LoopedSource, AddsUpCorruptPicturesOfAllRounds) {
   EXPECT_EQ(source.status().corrupt, 2);
 }
 
+TEST(LoopedSource, FinishesBeforeTimesOverflow) {
+  LoopedSource source([] {
+    return std::make_unique<ScriptedSource>(
+        std::vector<Picture>{PictureAt(kLatestTime.microseconds / 2)});
+  });
+  int rounds = 0;
+  while (source.Next().state == SourceState::kPicture) ++rounds;
+  EXPECT_EQ(rounds, 2);
+}
+
 TEST(LoopedSource, FinishesWhenARoundGivesNoPicture) {
   LoopedSource source([] { return std::make_unique<ScriptedSource>(std::vector<Picture>{}); });
   EXPECT_EQ(source.Next().state, SourceState::kFinished);

@@ -64,7 +64,46 @@ TEST_F(PlacesTest, RefusesBoxesThatAreNone) {
   EXPECT_THAT(Loading(kHead + "  - {id: 1, label: a, box_px: [1, 2, 3]}\n"),
               ThrowsMessage<config::ConfigError>(HasSubstr("places[0].box_px")));
   EXPECT_THAT(Loading(kHead + "  - {id: 1, label: a, box_px: [1, 2, 0, 4]}\n"),
-              ThrowsMessage<config::ConfigError>(HasSubstr("positive width")));
+              ThrowsMessage<config::ConfigError>(HasSubstr("at least one pixel")));
+}
+
+TEST_F(PlacesTest, RefusesBoxesThatAreNotInThePicture) {
+  for (const std::string box : {"[640, 0, 5, 5]", "[0, 480, 5, 5]", "[-5, 0, 5, 5]",
+                                "[0, 0, 641, 5]", "[1e300, 0, 5, 5]", "[0, 0, 1e300, 5]"}) {
+    EXPECT_THAT(Loading(kHead + "  - {id: 1, label: a, box_px: " + box + "}\n"),
+                ThrowsMessage<config::ConfigError>(HasSubstr("must lie in the picture")))
+        << box;
+  }
+  EXPECT_NO_THROW(Load(kHead + "  - {id: 1, label: a, box_px: [-4, 470, 10, 20]}\n"));
+}
+
+TEST_F(PlacesTest, RefusesLabelsThatCannotBeSent) {
+  for (const std::string& label : {std::string("\"\""), std::string("\"a\\0b\""),
+                                   std::string("\"a\\nb\""), std::string(201, 'x')}) {
+    EXPECT_THAT(Loading(kHead + "  - {id: 1, label: " + label + ", box_px: [1, 2, 3, 4]}\n"),
+                ThrowsMessage<config::ConfigError>(HasSubstr("places[0].label")))
+        << label;
+  }
+  EXPECT_NO_THROW(Load(kHead + "  - {id: 1, label: rote Tasse, box_px: [1, 2, 3, 4]}\n"));
+}
+
+TEST_F(PlacesTest, RefusesPositionsThatNothingHas) {
+  const auto with = [](const std::string& rest) {
+    return kHead + "  - {id: 1, label: a, " + rest + "}\n";
+  };
+  EXPECT_THAT(Loading(with("position_m: [1e300, 0, 1]")),
+              ThrowsMessage<config::ConfigError>(HasSubstr("places[0].position_m")));
+  EXPECT_THAT(Loading(with("position_m: [0, 0, 1], position_sigma_m: 1e300")),
+              ThrowsMessage<config::ConfigError>(HasSubstr("places[0].position_sigma_m")));
+  EXPECT_THAT(Loading(with("position_m: [0, 0, 1], extent_m: [-1, 1, 1]")),
+              ThrowsMessage<config::ConfigError>(HasSubstr("places[0].extent_m")));
+}
+
+TEST_F(PlacesTest, RemarksOnNoPlacesAndOnLabelsThatAreUsedTwice) {
+  EXPECT_THAT(RemarkOn(Load("")), HasSubstr("no places are known"));
+  EXPECT_EQ(RemarkOn(Load(kHead + kLamp + kCup)), "");
+  const std::string second = "  - {id: 8, label: lamp, box_px: [100, 200, 30, 40]}\n";
+  EXPECT_THAT(RemarkOn(Load(kHead + kLamp + second)), HasSubstr("labelled 'lamp'"));
 }
 
 TEST_F(PlacesTest, RefusesAPlaceThatIsNowhere) {
