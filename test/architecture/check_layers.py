@@ -12,6 +12,8 @@ first has a README.md. Prints a line per fault; exit code 1 when there are any.
 from __future__ import annotations
 
 import re
+import shutil
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -77,17 +79,35 @@ def _services(root: Path, services: set[str]) -> Iterator[str]:
 
 
 def _top_level(root: Path) -> Iterator[str]:
-    for name in sorted(path.name for path in root.iterdir()):
+    for name in sorted({path.relative_to(root).parts[0] for path in _entries(root)}):
         if name not in TOP_LEVEL | NOT_IN_THE_REPOSITORY and not name.startswith("."):
             yield f"{name}: not one of the entries that the top level may hold"
 
 
 def _catch_alls(root: Path) -> Iterator[str]:
-    for part in ("lcmtypes", "common", "services", "config", "scripts", "test"):
-        for path in sorted((root / part).rglob("*")):
-            catches = CATCH_ALL_FOLDERS if path.is_dir() else CATCH_ALL_FILES
-            if path.name.lower() in catches:
-                yield f"{path.relative_to(root)}: the name tells nothing: say what it holds"
+    for path in sorted(_entries(root)):
+        catches = CATCH_ALL_FOLDERS if path.is_dir() else CATCH_ALL_FILES
+        if path.name.lower() in catches and path.relative_to(root).parts[0] in TOP_LEVEL:
+            yield f"{path.relative_to(root)}: the name tells nothing: say what it holds"
+
+
+def _entries(root: Path) -> set[Path]:
+    """All files and their folders: those that git tracks, in a folder without git those there are."""
+    files = _tracked(root)
+    if files is None:
+        tops = [top for top in root.iterdir()
+                if top.name not in NOT_IN_THE_REPOSITORY and not top.name.startswith(".")]
+        return {path for top in tops for path in (top, *top.rglob("*"))}
+    folders = {folder for file in files for folder in file.parents if folder.is_relative_to(root)}
+    return {*files, *folders} - {root}
+
+
+def _tracked(root: Path) -> list[Path] | None:
+    if not (root / ".git").exists() or shutil.which("git") is None:
+        return None
+    listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], capture_output=True,
+                            text=True, check=False)
+    return [root / name for name in listed.stdout.split("\0") if name] if listed.stdout else None
 
 
 def _readmes(root: Path) -> Iterator[str]:

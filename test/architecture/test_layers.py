@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -91,6 +93,18 @@ def test_hidden_files_and_what_is_built_are_no_stray_entries(tree: Path) -> None
     write(tree, "build/release/x", "")
     write(tree, "output/demo/x", "")
     assert check(tree) == []
+
+
+def test_with_git_what_is_not_tracked_is_no_stray_entry(tree: Path) -> None:
+    git = shutil.which("git") or pytest.skip("no git here")
+    for command in (["init", "-q"], ["add", "."]):
+        subprocess.run([git, "-C", str(tree), *command], check=True)
+    write(tree, "walk.lcmlog", "")
+    write(tree, "config/utils/mine.yaml", "")
+    assert check(tree) == []
+    write(tree, "notes.txt", "")
+    subprocess.run([git, "-C", str(tree), "add", "notes.txt"], check=True)
+    assert check(tree) == ["notes.txt: not one of the entries that the top level may hold"]
 
 
 @pytest.mark.parametrize("folder", FOLDERS)

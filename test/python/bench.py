@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from deixis_frontend.supervision.guard import stop_all
 
@@ -45,16 +45,19 @@ class Bench:
         system = {"name": "bench", "log": {"folder": str(self.logs)}, "services": services, **top}
         self.system_file.write_text(json.dumps(system), encoding="utf-8")  # JSON is YAML.
 
-    def deixis(self, command: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+    def deixis(self, command: str, *arguments: str,
+               **environment: str) -> subprocess.CompletedProcess[str]:
         """Runs a command of the front end to its end."""
-        return subprocess.run(self.command(command, *arguments), env=self._environment, text=True,
-                              capture_output=True, check=False, timeout=60)
+        return self._run(self.command(command, *arguments), environment)
+
+    def deixis_bare(self, command: str, **environment: str) -> subprocess.CompletedProcess[str]:
+        """The same without an option that names the system file."""
+        return self._run([sys.executable, "-m", "deixis_frontend", command], environment)
 
     def deixis_below(self, prefix: list[str],
                      command: str) -> subprocess.CompletedProcess[str]:
         """Runs a command of the front end by way of another program."""
-        return subprocess.run([*prefix, *self.command(command)], env=self._environment, text=True,
-                              capture_output=True, check=False, timeout=60)
+        return self._run([*prefix, *self.command(command)], {})
 
     @contextmanager
     def stranger(self, instance: str) -> Iterator[None]:
@@ -72,11 +75,12 @@ class Bench:
         return [sys.executable, "-m", "deixis_frontend", command, "--system",
                 str(self.system_file), *arguments]
 
-    def begin(self, command: str, *arguments: str) -> subprocess.Popen[str]:
+    def begin(self, command: str, *arguments: str,
+              output: IO[str] | int = subprocess.PIPE) -> subprocess.Popen[str]:
         """Runs a command of the front end beside the test."""
         return subprocess.Popen(self.command(command, *arguments), env=self._environment,
-                                text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                preexec_fn=_heed_interrupts)
+                                text=True, stdout=output, stderr=subprocess.STDOUT,
+                                preexec_fn=heed_interrupts)
 
     def status(self) -> dict[str, Any]:
         """What `status --json` says."""
@@ -102,6 +106,11 @@ class Bench:
             becomes_true(lambda: not is_alive(int(facts[0])))
         stop_all(*facts[2:])
 
+    def _run(self, command: list[str],
+             environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(command, env={**self._environment, **environment}, text=True,
+                              capture_output=True, check=False, timeout=60)
+
     def _write_program(self) -> None:
         program = self.folder / "bin" / "deixis-fake"
         program.parent.mkdir()
@@ -110,7 +119,7 @@ class Bench:
         program.chmod(0o755)
 
 
-def _heed_interrupts() -> None:
+def heed_interrupts() -> None:
     """A run in the background ignores SIGINT, and hands that down."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
@@ -123,6 +132,17 @@ def becomes_true(condition: Callable[[], bool], seconds: float = 10.0) -> bool:
             return False
         time.sleep(0.02)
     return True
+
+
+def has_read(pid: int, path: Path) -> bool:
+    """True when the process has the file open and has read it to its end."""
+    for link in Path(f"/proc/{pid}/fd").iterdir():
+        if link.exists() and link.samefile(path):
+            [position] = [line.split()[1] for line in Path(
+                f"/proc/{pid}/fdinfo/{link.name}").read_text(encoding="ascii").splitlines()
+                if line.startswith("pos:")]
+            return int(position) == path.stat().st_size
+    return False
 
 
 def is_alive(pid: int) -> bool:

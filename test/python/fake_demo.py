@@ -89,7 +89,7 @@ def seen_in(data: bytes, mode: str) -> Iterator[bytes]:
 def gesture(utime: int, number: int) -> gesture_t:
     """Somebody points at a thing with the right hand."""
     message = gesture_t()
-    message.utime, message.event_id, message.name, message.side = utime, number, "point", 2
+    message.utime, message.event_id, message.name, message.side = utime, number, "pointing", 2
     message.outcome, message.object_id, message.object_label = 0, number, SEEN[number]
     candidate = candidate_t()
     candidate.object_id, candidate.label, candidate.probability = number, SEEN[number], 0.875

@@ -26,7 +26,7 @@ def candidate(object_id, label, probability):
 def pointing(end_utime=0, label="cup"):
     message = gesture_t()
     message.end_utime = end_utime
-    message.name, message.outcome, message.object_id, message.object_label = "point", gesture_t.OBJECT, 3, label
+    message.name, message.outcome, message.object_id, message.object_label = "pointing", gesture_t.OBJECT, 3, label
     message.candidates = [candidate(3, "cup", 0.875), candidate(4, "jug", 0.0625)]
     message.n_candidates = len(message.candidates)
     return message.encode()
@@ -50,6 +50,7 @@ def first_line():
         reader.start()
         bus, deadline = lcm.LCM(URL), time.monotonic() + TIMEOUT_S
         while reader.is_alive() and time.monotonic() < deadline and example.poll() is None:
+            bus.publish("GESTURES", b"of another type")  # is to be passed over
             bus.publish("GESTURES", pointing(end_utime=1, label="over"))  # is not to be printed
             bus.publish("GESTURES", pointing())
             reader.join(0.05)

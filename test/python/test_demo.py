@@ -59,16 +59,27 @@ def theatre(tmp_path_factory: pytest.TempPathFactory, build: Path, url: str) -> 
 def test_live_it_says_what_is_pointed_at_and_how_much_was_right(theatre: Theatre) -> None:
     result = theatre.play()
     assert result.returncode == 0, result.stdout + result.stderr
-    assert "    0.2 s  point: lamp (88%), right hand\n" in result.stdout
-    assert "    0.5 s  point: phone (88%), right hand\n" in result.stdout
+    assert "    0.2 s  pointing: lamp (88%), right hand\n" in result.stdout
+    assert "    0.5 s  pointing: phone (88%), right hand\n" in result.stdout
     assert "1 of 2 pointing gestures were named right (2 gestures recognised" in result.stdout
-    assert result.stdout.count("point:") == 2
+    assert result.stdout.count("pointing:") == 2
 
 
 def test_live_it_stops_after_the_seconds_that_are_given(theatre: Theatre) -> None:
     result = theatre.play("--seconds", "0.4")
     assert "lamp" in result.stdout
     assert "1 of 1 pointing gestures" in result.stdout
+
+
+def test_what_the_seconds_cut_off_is_no_failure(theatre: Theatre) -> None:
+    result = theatre.play("--seconds", "0.4", mode="blind")
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert "0 of 0 pointing gestures" in result.stdout
+
+
+def test_it_says_on_which_bus_it_plays(theatre: Theatre, url: str) -> None:
+    assert f"on the bus {url}:" in theatre.play("--seconds", "0.2", "-l", url).stdout
+    assert "on the bus udpm://239.255.76.67:" in theatre.play("--seconds", "0.2").stdout
 
 
 def test_it_fails_when_nothing_is_recognised(theatre: Theatre) -> None:
@@ -89,7 +100,7 @@ def test_without_multicast_it_runs_in_one_process_and_names_the_cure(
     result = theatre.play(prefix=tuple(without_multicast))
     assert result.returncode == 0, result.stdout + result.stderr
     assert "ip route add 224.0.0.0/4 dev lo" in result.stdout
-    assert "    0.2 s  point: lamp (88%), right hand\n" in result.stdout
+    assert "    0.2 s  pointing: lamp (88%), right hand\n" in result.stdout
     assert "1 of 2 pointing gestures were named right" in result.stdout
 
 

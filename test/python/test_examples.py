@@ -18,7 +18,7 @@ NETWORKS = {
     "a network namespace": ["unshare", "-n", "sh", "-c", ROUTE, "sh"],
     "a network namespace of an unprivileged user": ["unshare", "-Urn", "sh", "-c", ROUTE, "sh"],
 }
-EXPECTED = "point: cup; candidates: cup (object 3, 0.88), jug (object 4, 0.06)\n"
+EXPECTED = "pointing: cup; candidates: cup (object 3, 0.88), jug (object 4, 0.06)\n"
 LCM_JARS = [Path("/usr/share/java/lcm.jar"), Path("/usr/local/share/java/lcm.jar")]
 
 
@@ -53,6 +53,18 @@ def network(build):
 def test_python_example_prints_the_gesture(network, build, repository):
     result = run(network, build, 20, sys.executable, repository / "scripts/python/examples/print_gestures.py")
     assert result.stdout == EXPECTED, result.stderr
+
+
+def test_python_example_passes_over_messages_of_another_type(network, build, repository):
+    result = run(network, build, 20, sys.executable, repository / "scripts/python/examples/print_gestures.py")
+    assert "a message on GESTURES is no gesture_t" in result.stderr
+
+
+def test_python_example_without_the_types_says_how_to_run_it(repository, tmp_path):
+    result = subprocess.run([sys.executable, repository / "scripts/python/examples/print_gestures.py"], check=False,
+                            capture_output=True, text=True, env={**os.environ, "PYTHONPATH": ""}, cwd=tmp_path)
+    assert result.returncode == 1
+    assert "PYTHONPATH=build/release/python" in result.stderr and "Traceback" not in result.stderr
 
 
 def test_java_example_prints_the_gesture(network, build, repository):

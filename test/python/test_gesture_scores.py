@@ -7,8 +7,8 @@ import pytest
 pytest.importorskip("numpy")
 
 from deixis_frontend.evaluation.gesture_scores import RecognisedGesture, Score, score_sequence, summarise
-from deixis_frontend.evaluation.sequences import LabelledGesture, read_sequences
-from deixis_frontend.training.recordings import write_recordings
+from deixis_frontend.evaluation.sequences import LabelledGesture, SceneObject, read_sequences
+from deixis_frontend.training.recordings import header, write_recordings
 
 FPS = 10.0
 GESTURE = LabelledGesture(10, 20, 40, 50, "right", 3, "cup")
@@ -19,7 +19,7 @@ def event(time_s: float, object_id: int = 3, outcome: str = "object") -> Recogni
 
 
 def score(*events: RecognisedGesture, names_objects: bool = True) -> Score:
-    return score_sequence([GESTURE], events, FPS, 200, names_objects)
+    return score_sequence([GESTURE], events, FPS, 200, names_objects=names_objects)
 
 
 def test_a_recognition_counts_until_half_a_second_after_the_hold():
@@ -79,11 +79,21 @@ def write_sequence(folder: Path) -> None:
 
 def test_sequences_become_recordings(tmp_path: Path):
     write_sequence(tmp_path / "spread_01")
+    write_sequence(tmp_path / "my walk")
     (tmp_path / "notes").mkdir()
     sequences, skipped = read_sequences(tmp_path)
     assert [s.reason for s in skipped] == ["has no sequence.csv, joints.csv"]
     write_recordings(sequences, tmp_path / "out")
     lines = (tmp_path / "out" / "spread_01.recording").read_text().splitlines()
     assert lines[0] == "recording spread_01 anna"
+    assert "\n".join(lines).replace("spread_01", "my_walk") == (
+        tmp_path / "out" / "my walk.recording").read_text().strip()
     assert "object 3 cup 10.0 20.0 30.0 40.0" in lines
     assert "hand 0 right 300.00 200.00 0 1 1" in lines
+
+
+def test_blanks_in_names_do_not_shift_the_words_of_a_recording():
+    cup = SceneObject(3, "tea  cup", (0.0, 0.0, 2.0), (1.0, 2.0, 3.0, 4.0))
+    assert header("my walk", "anna maria", [cup]) == [
+        "recording my_walk anna_maria", "object 3 tea_cup 1.0 2.0 3.0 4.0"]
+    assert header("x", " ", []) == ["recording x unknown"]

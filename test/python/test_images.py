@@ -150,6 +150,24 @@ def test_rejects_what_is_no_jpeg():
         images.jpeg_bytes(images.from_array(colours(), BGR, 0))
 
 
+@pytest.mark.parametrize("image", [
+    images.from_array(colours(), BGR, 7, sequence=3, camera="left"),
+    images.from_jpeg(b"\xff\xd8\xff\xd9", 640, 480, 7, sequence=3, camera="left"),
+])
+def test_camera_and_sequence_go_with_the_image(image):
+    image = image_t.decode(image.encode())
+    assert (images.camera_of(image), images.sequence_of(image)) == ("left", 3)
+
+
+def test_camera_is_none_without_metadata_and_an_error_if_no_text():
+    assert images.camera_of(images.from_array(colours(), BGR, 0, sequence=1)) is None
+    image = images.from_array(colours(), BGR, 0, camera="left")
+    assert images.sequence_of(image) is None
+    image.metadata[0].value = b"\xff"
+    with pytest.raises(ValueError, match="no UTF-8"):
+        images.camera_of(image)
+
+
 def test_sequence_is_none_without_metadata_and_an_error_if_no_number():
     image = images.from_array(colours(), BGR, 0)
     assert images.sequence_of(image) is None

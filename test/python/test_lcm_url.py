@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 import subprocess
 import sys
 
@@ -21,9 +22,9 @@ def test_option_goes_before_environment_before_default(monkeypatch: pytest.Monke
 
 def test_receive_buffer_is_appended_where_there_is_none() -> None:
     url = lcm_url.parse("udpm://239.255.76.67:7667?ttl=0")
-    assert str(url.with_receive_buffer()) == f"{url}&recv_buf_size=4000000"
+    assert str(url.with_receive_buffer()) == f"{url}&recv_buf_size=4194304"
     bare = lcm_url.parse("udpm://")
-    assert str(bare.with_receive_buffer()) == "udpm://?recv_buf_size=4000000"
+    assert str(bare.with_receive_buffer()) == "udpm://?recv_buf_size=4194304"
 
 
 def test_receive_buffer_that_is_asked_for_stays() -> None:
@@ -49,11 +50,34 @@ def test_what_a_udpm_url_leaves_out_is_lcms_own() -> None:
     ("udpm://192.168.0.1:7667", "no multicast group"),
     ("udpm://somewhere:7667", "no multicast group"),
     ("udpm://239.255.76.67:7667?ttl=many", "ttl 'many'"),
+    ("udpm://239.255.76.67:7667?ttl=256", "ttl '256'"),
+    ("udpm://239.255.76.67:7667?recv_buf_size=-1", "recv_buf_size '-1'"),
+    ("udpm://239.255.76.67:7667?nope=1", "unknown key 'nope'"),
+    ("udpm://239.255.76.67", "has no port"),
+    ("udpm://239.255.76.67:0", "port '0'"),
+    ("udpm://239.255.76.67:99999", "port '99999'"),
+    ("udpm://999.1.1.1:7667", "no multicast group"),
+    ("udpm://:7667", "no multicast group"),
+    ("tcpq://localhost:x", "port 'x'"),
     ("udpm://239.255.76.67:7667?ttl", "not of the form key=value"),
 ])
 def test_wrong_urls_name_their_fault(text: str, fault: str) -> None:
     with pytest.raises(UserError, match=fault.replace("?", "\\?")):
         lcm_url.parse(text)
+
+
+@pytest.mark.parametrize("text", ["memq://", "file:///tmp/x.lcmlog"])
+def test_what_leads_to_no_other_process_is_no_bus(text: str) -> None:
+    with pytest.raises(UserError, match="leads to no other process"):
+        lcm_url.require_bus(lcm_url.parse(text))
+
+
+def test_a_tcp_bus_needs_its_server() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        url = lcm_url.parse(f"tcpq://127.0.0.1:{server.getsockname()[1]}")
+        lcm_url.require_bus(url)
+    with pytest.raises(UserError, match="nobody listens on"):
+        lcm_url.require_bus(url)
 
 
 def test_free_ports_differ() -> None:
@@ -62,7 +86,7 @@ def test_free_ports_differ() -> None:
 
 def test_probe_finds_multicast(url: str) -> None:
     assert lcm_url.why_multicast_fails() is None
-    lcm_url.require_multicast(lcm_url.parse(url))
+    lcm_url.require_bus(lcm_url.parse(url))
 
 
 def test_probe_finds_out_that_there_is_no_multicast(without_multicast: list[str],

@@ -8,7 +8,7 @@ from kinect import skeleton_msg_t
 
 def gesture(event_id=1):
     message = gesture_t()
-    message.event_id, message.name = event_id, "point"
+    message.event_id, message.name = event_id, "pointing"
     message.candidates = [candidate_t()]
     message.n_candidates = 1
     return message
@@ -56,6 +56,55 @@ def test_a_message_that_does_not_decode_is_named(tmp_path, break_it, message):
 def test_a_missing_log_is_named(tmp_path):
     with pytest.raises(FileNotFoundError, match="missing.lcmlog"):
         list(logs.read(tmp_path / "missing.lcmlog"))
+
+
+def ten_gestures(path):
+    return write(path, *((number, "GESTURES", gesture(number)) for number in range(10)))
+
+
+def numbers(path):
+    return [time for time, _, _ in logs.read(path)]
+
+
+def test_reading_goes_on_behind_noise(tmp_path):
+    path = ten_gestures(tmp_path / "a.lcmlog")
+    data, size = path.read_bytes(), path.stat().st_size // 10
+    path.write_bytes(data[:3 * size] + bytes(5000) + data[5 * size:])
+    with pytest.warns(UserWarning, match="8 messages were read; 5000 bytes are damaged"):
+        assert numbers(path) == [0, 1, 2, 5, 6, 7, 8, 9]
+
+
+def test_a_damaged_length_does_not_swallow_what_follows(tmp_path):
+    path = ten_gestures(tmp_path / "a.lcmlog")
+    data, size = bytearray(path.read_bytes()), path.stat().st_size // 10
+    data[2 * size + 24:2 * size + 28] = (3 * size).to_bytes(4, "big")
+    path.write_bytes(data)
+    with pytest.warns(UserWarning, match=f"9 messages were read; {size} bytes are damaged"):
+        assert numbers(path) == [0, 1, 3, 4, 5, 6, 7, 8, 9]
+
+
+@pytest.mark.parametrize("missing", [1, 100])
+def test_a_log_that_ends_in_a_message_is_read_up_to_it(tmp_path, missing):
+    path = ten_gestures(tmp_path / "a.lcmlog")
+    path.write_bytes(path.read_bytes()[:-missing])
+    with pytest.warns(UserWarning, match="9 messages were read; it ends in the middle of a message"):
+        assert numbers(path) == list(range(9))
+
+
+def test_an_end_within_the_header_is_told(tmp_path):
+    path = ten_gestures(tmp_path / "a.lcmlog")
+    size = path.stat().st_size // 10
+    path.write_bytes(path.read_bytes()[:9 * size + 2])
+    with pytest.warns(UserWarning, match="9 messages were read; it ends in the middle of a message"):
+        assert numbers(path) == list(range(9))
+
+
+@pytest.mark.parametrize("content", [b"hello", bytes(3_000_000), b"\xed\xa1\xda\x01" * 20])
+def test_what_is_no_log_is_an_error(tmp_path, content):
+    path = tmp_path / "a.lcmlog"
+    path.write_bytes(content)
+    with pytest.raises(ValueError, match="a.lcmlog is no LCM log"):
+        list(logs.read(path))
 
 
 def test_no_log_is_written_over(tmp_path):

@@ -13,7 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from deixis_frontend import lcm_url
+from deixis_frontend import layout, lcm_url
+from deixis_frontend.errors import UserError
+from deixis_frontend.evaluation.offline_chain import results_of_video
 from deixis_lcm import logs
 
 CLIP_FPS = 15.0
@@ -114,6 +116,16 @@ def test_the_same_clip_gives_the_same_bytes_with_any_number_of_threads(
         other = offline(build, clip, pictures, folder / f"threads{threads}.lcmlog",
                         "--threads", threads)
         assert other.read_bytes() == results.read_bytes(), f"{threads} threads"
+
+
+def test_a_video_becomes_the_results_of_the_services_that_are_named(
+        build: Path, clip: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("DEIXIS_BUILD_DIR", str(build))
+    results = results_of_video(layout.find(), clip / "left.mp4", ("object_detector",), {"OBJECTS"})
+    assert [channel for channel, _ in results] == ["OBJECTS"] * 373
+    with pytest.raises(UserError, match="deixis-offline failed: .*no_such_key"):
+        results_of_video(layout.find(), clip / "left.mp4", ("object_detector",), {"OBJECTS"},
+                         ["object_detector.no_such_key=1"])
 
 
 @contextmanager

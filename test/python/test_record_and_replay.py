@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import lcm
 import pytest
+from bench import becomes_true, heed_interrupts
 
 
 def deixis(url: str, *arguments: object, prefix: tuple[str, ...] = (),
@@ -42,6 +44,36 @@ def talking(url: str) -> Iterator[None]:
     thread.join()
 
 
+@contextmanager
+def recording(url: str, output: Path) -> Iterator[subprocess.Popen[str]]:
+    """`deixis record` beside the test; nothing of it is left behind."""
+    command = [sys.executable, "-m", "deixis_frontend", "record", "-l", url, "-o", str(output)]
+    process = subprocess.Popen(command, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+                               text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                               preexec_fn=heed_interrupts)
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.wait()
+        for pid in loggers_of(output):
+            os.kill(pid, signal.SIGKILL)
+
+
+def loggers_of(output: Path) -> list[int]:
+    """The lcm-loggers that write to a file, or to what is to become it."""
+    pids = [int(entry.name) for entry in Path("/proc").iterdir() if entry.name.isdigit()]
+    return [pid for pid in pids if (words := command_line(pid)) and "lcm-logger" in words[0]
+            and words[-1].startswith(str(output))]
+
+
+def command_line(pid: int) -> list[str]:
+    try:
+        return Path(f"/proc/{pid}/cmdline").read_bytes().decode().split("\0")[:-1]
+    except OSError:
+        return []  # Gone.
+
+
 def channels(log: Path) -> set[str]:
     return {event.channel for event in lcm.EventLog(str(log), "r")}
 
@@ -63,6 +95,23 @@ def test_records_all_channels(url: str, tmp_path: Path) -> None:
         result = deixis(url, "record", "--seconds", 0.5, "--output", output)
     assert result.returncode == 0, result.stderr
     assert channels(output) == {"A", "B"}
+    assert f"created the folder {output.parent}" in result.stdout
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_the_recording_and_the_logger(url: str, tmp_path: Path,
+                                                    number: signal.Signals) -> None:
+    output = tmp_path / "x.lcmlog"
+    with talking(url), recording(url, output) as record:
+        assert becomes_true(lambda: any(part.stat().st_size > 5000
+                                        for part in tmp_path.glob("x.lcmlog.*.part")))
+        record.send_signal(number)
+        said, _ = record.communicate(timeout=10)
+    assert record.returncode == 0, said
+    assert "recorded" in said and "created" not in said
+    assert not loggers_of(output)
+    assert channels(output) == {"A", "B"}
+    assert list(tmp_path.iterdir()) == [output]
 
 
 def test_records_the_channels_that_are_named(url: str, tmp_path: Path) -> None:
@@ -84,7 +133,31 @@ def test_says_when_nothing_came(url: str, tmp_path: Path) -> None:
     result = deixis(url, "record", "--seconds", 0.3, "--output", tmp_path / "x.lcmlog")
     assert result.returncode == 1
     assert "nothing was recorded" in result.stderr
-    assert not (tmp_path / "x.lcmlog").exists()
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_old_recording_is_kept_when_nothing_came(url: str, log: Path) -> None:
+    before = log.read_bytes()
+    result = deixis(url, "record", "--force", "--seconds", 0.3, "--output", log)
+    assert result.returncode == 1
+    assert log.read_bytes() == before
+    assert list(log.parent.iterdir()) == [log]
+
+
+def test_an_old_recording_is_replaced_when_asked_for(url: str, log: Path) -> None:
+    with talking(url):
+        result = deixis(url, "record", "--force", "--seconds", 0.5, "--output", log)
+    assert result.returncode == 0, result.stderr
+    assert channels(log) == {"A", "B"}
+
+
+def test_records_to_regular_files_only(url: str, tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    result = deixis(url, "record", "--force", "--seconds", 0.3, "--output", pipe)
+    assert result.returncode == 1
+    assert "is no regular file" in result.stderr
+    assert pipe.is_fifo()
 
 
 def test_says_when_the_folder_cannot_be_written(url: str) -> None:
@@ -93,12 +166,28 @@ def test_says_when_the_folder_cannot_be_written(url: str) -> None:
     assert "/proc/x.lcmlog cannot be written" in result.stderr
 
 
-def test_says_when_the_disk_is_full(url: str, tmp_path: Path) -> None:
-    (tmp_path / "full").symlink_to("/dev/full")
-    with talking(url):
-        result = deixis(url, "record", "--force", "--seconds", 5, "--output", tmp_path / "full")
+def test_says_when_the_disk_is_full_and_keeps_what_there_was_before(url: str, log: Path) -> None:
+    logger = log.parent / "bin" / "lcm-logger"
+    logger.parent.mkdir()
+    logger.write_text('#!/bin/sh\nfor last; do :; done\necho some >"$last"\n'
+                      'echo "write: No space left on device" >&2; exit 1\n', encoding="ascii")
+    logger.chmod(0o755)
+    before = log.read_bytes()
+    result = deixis(url, "record", "--force", "--seconds", 5, "--output", log,
+                    PATH=f"{logger.parent}:{os.environ['PATH']}")
     assert result.returncode == 1
     assert "the disk is full" in result.stderr
+    [part] = log.parent.glob("in.lcmlog.*.part")
+    assert f"is kept in {part}" in result.stderr and part.read_text(encoding="ascii") == "some\n"
+    assert log.read_bytes() == before
+
+
+@pytest.mark.parametrize("command", ["record", "replay"])
+def test_a_tcp_server_that_is_not_there_is_named(url: str, log: Path, command: str) -> None:
+    more = [log] if command == "replay" else []
+    result = deixis(url, command, *more, "-l", "tcpq://localhost:1")
+    assert result.returncode == 1
+    assert "nobody listens on 'tcpq://localhost:1'" in result.stderr
 
 
 def test_replays_what_was_recorded(url: str, log: Path) -> None:
@@ -110,6 +199,30 @@ def test_replays_what_was_recorded(url: str, log: Path) -> None:
     while len(heard) < 20 and time.monotonic() < end:
         bus.handle_timeout(100)
     assert heard == [b"%d" % number for number in range(20)]
+    assert "published 20 messages" in result.stdout
+
+
+def test_replay_of_no_channel_is_no_success(url: str, log: Path) -> None:
+    result = deixis(url, "replay", log, "--channels", "NOPE")
+    assert result.returncode == 1
+    assert "no channel is 'NOPE'" in result.stderr and "has A" in result.stderr
+
+
+def test_replay_of_a_cut_off_log_says_how_much_there_was(url: str, log: Path) -> None:
+    log.write_bytes(log.read_bytes()[:-1])
+    result = deixis(url, "replay", log)
+    assert result.returncode == 0, result.stderr
+    assert "it ends in the middle of a message" in result.stderr
+    assert "published 19 messages" in result.stdout
+
+
+def test_replay_goes_on_behind_damage(url: str, log: Path) -> None:
+    data = log.read_bytes()  # 10 messages of 30 bytes, then 10 of 31
+    log.write_bytes(data[:90] + b"noise" * 100 + data[180:])
+    result = deixis(url, "replay", log)
+    assert result.returncode == 0, result.stderr
+    assert "500 bytes are damaged and were passed over" in result.stderr
+    assert "published 17 messages" in result.stdout
 
 
 @pytest.mark.parametrize("command", ["replay", "run-offline"])
@@ -126,16 +239,61 @@ def test_says_what_is_wrong_with_a_log(url: str, tmp_path: Path, command: str,
     assert fault in result.stderr and "Traceback" not in result.stderr
 
 
-def test_offline_run_is_handed_over_as_it_is(url: str, log: Path, tmp_path: Path) -> None:
-    program = tmp_path / "bin" / "deixis-offline"
-    program.parent.mkdir()
-    program.write_text("#!/bin/sh\necho \"$@\"; exit 7\n", encoding="ascii")
-    program.chmod(0o755)
-    result = deixis(url, "run-offline", log, "out", "--services", "a,b", "--set", "a.x=1", "--set",
-                    "b.y=2", "--config", "a=f.yaml", DEIXIS_BUILD_DIR=str(tmp_path))
+Offline = Callable[[str], dict[str, str]]
+
+
+@pytest.fixture
+def offline(tmp_path: Path) -> Offline:
+    """Makes a stand-in for deixis-offline of shell commands; returns the environment with it."""
+    def make(script: str) -> dict[str, str]:
+        program = tmp_path / "build" / "bin" / "deixis-offline"
+        program.parent.mkdir(parents=True)
+        program.write_text(f"#!/bin/sh\n{script}\n", encoding="ascii")
+        program.chmod(0o755)
+        return {"DEIXIS_BUILD_DIR": str(tmp_path / "build")}
+
+    return make
+
+
+def test_offline_run_is_handed_over_as_it_is(url: str, log: Path, offline: Offline) -> None:
+    result = deixis(url, "run-offline", log, log.with_name("out"), "--services", "a,b", "--set",
+                    "a.x=1", "--set", "b.y=2", "--config", "a=f.yaml", "--results-only",
+                    **offline('echo "$@"; exit 7'))
     assert result.returncode == 7
-    assert result.stdout.split() == [str(log), "out", *"--services a,b --set a.x=1 --set b.y=2"
-                                     " --config a=f.yaml".split()]
+    source, target, *options = result.stdout.split()
+    assert source == str(log) and target.startswith(str(log.with_name("out")))
+    assert options == ("--services a,b --set a.x=1 --set b.y=2 --config a=f.yaml"
+                       " --results-only").split()
+    assert not list(log.parent.glob("out*"))
+
+
+def test_offline_run_writes_over_a_log_only_when_asked_for(url: str, log: Path,
+                                                           offline: Offline) -> None:
+    output = log.with_name("out")
+    output.write_text("old", encoding="ascii")
+    environment = offline('printf new >"$2"')
+    refused = deixis(url, "run-offline", log, output, **environment)
+    assert refused.returncode == 1
+    assert "is there already" in refused.stderr and "--force" in refused.stderr
+    assert output.read_text(encoding="ascii") == "old"
+    assert deixis(url, "run-offline", log, output, "--force", **environment).returncode == 0
+    assert output.read_text(encoding="ascii") == "new"
+
+
+def test_an_interrupted_offline_run_leaves_nothing_behind_and_says_so(
+        url: str, log: Path, offline: Offline) -> None:
+    command = [sys.executable, "-m", "deixis_frontend", "run-offline", str(log),
+               str(log.with_name("out"))]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path),
+                   **offline('echo some >"$2"; exec sleep 60')}
+    with subprocess.Popen(command, env=environment, text=True, stderr=subprocess.PIPE,
+                          preexec_fn=heed_interrupts) as process:
+        assert becomes_true(lambda: any(part.stat().st_size for part in log.parent.glob("out.*")))
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=10)
+    assert process.returncode == 130
+    assert "interrupted" in said and "was not written" in said
+    assert not list(log.parent.glob("out*"))
 
 
 def test_without_multicast_the_cure_is_named(url: str, log: Path,

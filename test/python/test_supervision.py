@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+import argparse
 import os
+import shutil
 import signal
 import time
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
-from bench import Bench, becomes_true, is_alive
+import pytest
+from bench import Bench, becomes_true, has_read, is_alive
+
+from deixis_frontend import layout
+from deixis_frontend.commands import restart, stop, system_option
+from deixis_frontend.errors import UserError
+from deixis_frontend.supervision import control_client, system_file
 
 
 def kill_and_wait_until_back(bench: Bench, name: str) -> float:
@@ -167,6 +177,60 @@ def test_restart_takes_the_system_file_as_it_is_now(bench: Bench) -> None:
     assert bench.service("a")["text"] == "new"
 
 
+def test_restart_leaves_out_what_the_system_file_has_no_more(bench: Bench) -> None:
+    bench.write({"a": {}, "b": {}})
+    bench.deixis("start")
+    bench.write({"b": {}, "c": {}})
+    restarted = bench.deixis("restart")
+    assert restarted.returncode == 0, restarted.stderr
+    assert "a is stopped: it is not in" in restarted.stdout
+    assert [(s["name"], s["state"]) for s in bench.status()["services"]] == [
+        ("b", "running"), ("c", "stopped")]
+
+
+def test_restart_starts_nothing_when_nothing_is_left_of_what_ran(bench: Bench) -> None:
+    bench.write({"a": {}})
+    bench.deixis("start")
+    bench.write({"b": {}}, start=["b"])
+    restarted = bench.deixis("restart")
+    assert restarted.returncode == 0, restarted.stderr
+    assert "a is stopped: it is not in" in restarted.stdout
+    assert bench.deixis("status").returncode == 3
+
+
+@pytest.mark.parametrize("command", [stop, restart])
+def test_a_supervisor_that_does_not_end_is_told(
+        bench: Bench, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+        command: ModuleType) -> None:
+    class Stubborn(system_option.Client):
+        """The client of a supervisor that obeys, but does not end."""
+
+        def is_supervised(self) -> bool:
+            return True
+
+        def command(self, command: str, *_: object) -> dict[str, Any]:
+            return {"ok": True, "stopped": ["a"], "status": {"lcm_url": bench.url}}
+
+        def wait_until_gone(self, seconds: float = 10.0) -> bool:
+            return False
+
+    bench.write({"a": {}})
+    monkeypatch.setattr(system_option, "Client", Stubborn)
+    asked = argparse.Namespace(system=bench.system_file, names=[], lcm_url=None)
+    assert command.run(asked) == 1
+    assert "the supervisor has not ended: see" in capsys.readouterr().err
+
+
+def test_a_configuration_file_is_looked_for_beside_the_system_file(
+        bench: Bench, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    for folder in (bench.folder, tmp_path):
+        (folder / "mine.yaml").touch()
+    monkeypatch.chdir(tmp_path)
+    bench.write({"a": {"config": "mine.yaml"}})
+    bench.deixis("start")
+    assert f"--config {bench.folder / 'mine.yaml'}\n" in bench.log("a")
+
+
 def test_restart_of_one_gives_it_a_new_process(bench: Bench) -> None:
     bench.write({"a": {}, "b": {}})
     bench.deixis("start")
@@ -217,6 +281,96 @@ def test_start_after_a_killed_supervisor_waits_for_its_services_to_end(bench: Be
     assert not is_alive(old)
 
 
+def test_a_supervisor_whose_folder_is_deleted_can_be_reached_again(bench: Bench) -> None:
+    bench.write({"a": {}})
+    bench.deixis("start")
+    before = bench.service("a")["pid"]
+    shutil.rmtree(bench.folder / "run")
+    assert becomes_true(lambda: bench.deixis("status").returncode == 0)
+    assert bench.service("a")["pid"] == before
+    assert bench.deixis("start").returncode == 0
+    assert bench.log("a").count("started, pid") == 1
+    assert bench.deixis("stop").returncode == 0
+    assert not is_alive(before)
+
+
+def test_of_two_supervisors_after_a_deleted_folder_the_first_one_ends(bench: Bench) -> None:
+    bench.write({"a": {}})
+    bench.deixis("start")
+    old_supervisor, old = supervisor_pid(bench), bench.service("a")["pid"]
+    os.kill(old_supervisor, signal.SIGSTOP)  # It is to notice later than the second one starts.
+    shutil.rmtree(bench.folder / "run")
+    assert bench.deixis("start").returncode == 0
+    os.kill(old_supervisor, signal.SIGCONT)
+    assert becomes_true(lambda: not is_alive(old_supervisor) and not is_alive(old))
+    assert bench.service("a")["state"] == "running"
+
+
+def test_a_supervisor_that_hangs_is_told(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    bench.write({"a": {}})
+    bench.deixis("start")
+    pid = supervisor_pid(bench)
+    monkeypatch.setenv("DEIXIS_RUN_DIR", str(bench.folder / "run"))
+    monkeypatch.setattr(control_client, "_ANSWERS_WITHIN_S", 0.3)
+    client = control_client.Client(system_file.load(bench.system_file), layout.find())
+    os.kill(pid, signal.SIGSTOP)
+    try:
+        for command in ("status", "stop"):
+            with pytest.raises(UserError, match=f"pid {pid}.* has not answered for 0.3 s: .*CONT"):
+                client.command(command, [])
+    finally:
+        os.kill(pid, signal.SIGCONT)
+
+
+@pytest.mark.parametrize(("folder", "fault"), [
+    ("/tmp/" + 100 * "x", "path of the control socket is too long"),
+    ("/proc/x", "/proc/x for locks and sockets cannot be made"),
+    ("/dev/null", "/dev/null for locks and sockets cannot be made")])
+def test_a_run_folder_that_will_not_do_is_refused_at_once(bench: Bench, folder: str,
+                                                          fault: str) -> None:
+    bench.write({"a": {}})
+    started = bench.deixis("start", DEIXIS_RUN_DIR=folder)
+    [line] = started.stderr.splitlines()
+    assert started.returncode == 1
+    assert fault in line and "DEIXIS_RUN_DIR" in line
+
+
+@pytest.mark.parametrize("folder", ["/proc/nope", "/dev/null"])
+def test_a_log_folder_that_cannot_be_written_is_refused_at_once(bench: Bench, folder: str) -> None:
+    bench.write({"a": {}}, log={"folder": folder})
+    started = bench.deixis("start")
+    [line] = started.stderr.splitlines()
+    assert started.returncode == 1
+    assert f"{folder}/supervisor.log cannot be written" in line and "log.folder" in line
+
+
+@pytest.mark.parametrize("url", ["memq://", "file:///tmp/x.lcmlog"])
+def test_a_url_that_leads_to_no_other_process_is_refused_at_once(bench: Bench, url: str) -> None:
+    bench.write({"a": {}})
+    started = bench.deixis("start", LCM_DEFAULT_URL=url)
+    assert started.returncode == 1
+    assert "leads to no other process" in started.stderr
+    assert bench.deixis("status").returncode == 3
+
+
+def test_a_service_that_is_stopped_by_a_signal_is_silent_until_it_is_restarted(
+        bench: Bench) -> None:
+    bench.write({"a": {"stop_within_s": 0.3}})
+    bench.deixis("start")
+    os.kill(bench.service("a")["pid"], signal.SIGSTOP)
+    assert becomes_true(lambda: bench.service("a")["state"] == "silent")
+    assert bench.deixis("status").returncode == 1
+    assert bench.deixis("restart", "a").returncode == 0
+    assert bench.service("a")["state"] == "running"
+
+
+def test_the_system_file_of_the_users_configuration_folder_is_taken(bench: Bench) -> None:
+    bench.write({"a": {}})
+    started = bench.deixis_bare("start", DEIXIS_CONFIG_DIR=str(bench.folder))
+    assert started.returncode == 0, started.stderr
+    assert bench.service("a")["state"] == "running"
+
+
 def test_signal_to_the_supervisor_stops_all(bench: Bench) -> None:
     bench.write({"a": {}})
     bench.deixis("start")
@@ -248,14 +402,16 @@ def test_log_follows_through_a_rotation(bench: Bench) -> None:
     bench.write({"a": {"set": {"spam": 300}}},
                 log={"folder": str(bench.logs), "size_mb": 0.02, "count": 5})
     bench.deixis("start")
-    following = bench.begin("log", "-f", "-n", "0")
-    time.sleep(0.5)  # Until it follows.
+    shown = bench.folder / "shown"
+    with shown.open("w", encoding="utf-8") as output:
+        following = bench.begin("log", "-f", "-n", "0", output=output)
+    assert becomes_true(lambda: has_read(following.pid, bench.logs / "a.log"))
     bench.deixis("restart", "a")
-    time.sleep(0.5)  # Until it has looked once more.
-    following.send_signal(signal.SIGINT)
-    output, _ = following.communicate(timeout=10)
     assert (bench.logs / "a.log.2").exists()
-    assert output.count("x" * 99) == 300
+    assert becomes_true(lambda: has_read(following.pid, bench.logs / "a.log"))
+    following.send_signal(signal.SIGINT)
+    following.wait(timeout=10)
+    assert shown.read_text(encoding="utf-8").count("x" * 99) == 300
 
 
 def test_without_multicast_start_names_the_cure(bench: Bench, without_multicast: list[str]) -> None:

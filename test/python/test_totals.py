@@ -49,33 +49,33 @@ def test_reads_both_runners(tmp_path: Path, text: str, expected: Totals) -> None
 
 
 def test_sums_both_suites(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    run([suite(tmp_path, CTEST, 8, "cpp"), suite(tmp_path, PYTEST, 1, "python")], False)
+    run([suite(tmp_path, CTEST, 8, "cpp"), suite(tmp_path, PYTEST, 1, "python")], is_filtered=False)
     assert last_line(capsys) == "3 passed, 3 failed, 3 skipped"
 
 
 def test_says_nothing_of_skipped_ones_when_there_are_none(
         tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run([suite(tmp_path, PASSES)], False).failed == 0
+    assert run([suite(tmp_path, PASSES)], is_filtered=False).failed == 0
     assert last_line(capsys) == "1 passed, 0 failed"
 
 
 @pytest.mark.parametrize(("junit", "exit_code"), [
     (None, 0), (None, -11), ("<testsu", 0), (EMPTY, 0), (PASSES, 139)])
 def test_a_broken_runner_is_a_failure(tmp_path: Path, junit: str | None, exit_code: int) -> None:
-    assert run([suite(tmp_path, junit, exit_code)], False).failed == 1
+    assert run([suite(tmp_path, junit, exit_code)], is_filtered=False).failed == 1
 
 
 def test_results_of_an_earlier_run_do_not_count(tmp_path: Path) -> None:
     (tmp_path / "one.xml").write_text(PASSES, encoding="utf-8")
-    assert run([suite(tmp_path, None)], False) == Totals(failed=1)
+    assert run([suite(tmp_path, None)], is_filtered=False) == Totals(failed=1)
 
 
 def test_a_suite_without_tests_is_a_failure(tmp_path: Path) -> None:
     suites = [suite(tmp_path, PASSES), suite(tmp_path, EMPTY, 5, "two", no_tests=(5,))]
-    assert run(suites, False) == Totals(passed=1, failed=1)
+    assert run(suites, is_filtered=False) == Totals(passed=1, failed=1)
 
 
 def test_a_filter_may_fit_one_suite_alone_but_not_none(tmp_path: Path) -> None:
     empty = suite(tmp_path, EMPTY, 0, "two")
-    assert run([suite(tmp_path, PASSES), empty], True) == Totals(passed=1)
-    assert run([empty], True) == Totals(failed=1)
+    assert run([suite(tmp_path, PASSES), empty], is_filtered=True) == Totals(passed=1)
+    assert run([empty], is_filtered=True) == Totals(failed=1)

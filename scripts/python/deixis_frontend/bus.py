@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from deixis_frontend.errors import UserError
-from deixis_frontend.lcm_url import LcmUrl, require_multicast
+from deixis_frontend.lcm_url import LcmUrl, require_bus
 
 
 def open_bus(url: LcmUrl) -> Any:
     """An `lcm.LCM` on `url` with a receive buffer that pictures fit into."""
-    require_multicast(url)
+    require_bus(url)
     lcm = import_lcm()
     try:
         return lcm.LCM(str(url.with_receive_buffer()))

@@ -6,10 +6,11 @@ import argparse
 import importlib
 import os
 import sys
+import warnings
 from dataclasses import dataclass
 from types import ModuleType
 
-from deixis_frontend import __version__
+from deixis_frontend import __version__, interrupts
 from deixis_frontend.bus import missing_module
 from deixis_frontend.errors import UserError
 
@@ -23,6 +24,7 @@ class Command:
 
 
 _PACKAGE = "deixis_frontend.commands"
+_DEFAULT_BUS = "$LCM_DEFAULT_URL, else LCM's own default"
 COMMANDS: dict[str, Command] = {
     "start": Command(f"{_PACKAGE}.start", "start services and wait until they are ready"),
     "stop": Command(f"{_PACKAGE}.stop", "stop services"),
@@ -35,13 +37,16 @@ COMMANDS: dict[str, Command] = {
     "run-offline": Command(f"{_PACKAGE}.run_offline", "log in, services, log out, without a bus"),
     "evaluate": Command(f"{_PACKAGE}.evaluate", "measure results against recordings with truth"),
     "train-gestures": Command("deixis_frontend.training.gestures", "learn gesture models"),
+    "train-hands": Command("deixis_frontend.training.hands", "learn what hands look like"),
 }
 
 
 def main(argv: list[str]) -> int:
     """Runs one command; returns the exit code: 0 done, 1 not done, 2 wrong usage."""
+    warnings.showwarning = _show_warning
     try:
         arguments = _parser(argv).parse_args(argv)
+        interrupts.raise_on_ctrl_c()
         return int(arguments.run(arguments))
     except UserError as error:
         for line in str(error).splitlines():
@@ -53,17 +58,17 @@ def main(argv: list[str]) -> int:
         print(f"deixis: {missing_module(error.name)}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        return 130
+        interrupts.end_at_once()  # A second Ctrl-C, while Python ends, is not told either.
+        return interrupts.INTERRUPTED
     except BrokenPipeError:
         # Whoever read our output has gone: not our fault, and nobody left to tell.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 141
 
 
-def add_url(parser: argparse.ArgumentParser) -> None:
-    """The option that every command has."""
-    parser.add_argument("-l", "--lcm-url", metavar="URL",
-                        help="bus to use; else $LCM_DEFAULT_URL, else LCM's own default")
+def add_url(parser: argparse.ArgumentParser, otherwise: str) -> None:
+    """The option that every command has; `otherwise` says which bus is used without it."""
+    parser.add_argument("-l", "--lcm-url", metavar="URL", help=f"bus to use; else {otherwise}")
 
 
 def add_commands(parser: argparse.ArgumentParser, commands: dict[str, Command], argv: list[str],
@@ -83,7 +88,7 @@ def _complete(parser: argparse.ArgumentParser, module: ModuleType, argv: list[st
     if hasattr(module, "SUBCOMMANDS"):
         add_commands(parser, module.SUBCOMMANDS, argv, "what")
     else:
-        add_url(parser)
+        add_url(parser, getattr(module, "DEFAULT_BUS", _DEFAULT_BUS))
         module.add_arguments(parser)
         parser.set_defaults(run=module.run)
 
@@ -94,3 +99,7 @@ def _parser(argv: list[str]) -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"deixis {__version__}")
     add_commands(parser, COMMANDS, argv, "command")
     return parser
+
+
+def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
+    print(f"deixis: {message}", file=sys.stderr)

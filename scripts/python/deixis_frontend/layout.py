@@ -20,6 +20,7 @@ class Layout:
     types: Path  # generated Python message types
     state: Path  # logs and output are written below this
     clips: Path
+    own_config: Path | None = None  # of DEIXIS_CONFIG_DIR: goes before `config`
 
     def program(self, name: str) -> Path:
         """The path of the built program `name`; raises UserError when it is not there."""
@@ -31,10 +32,19 @@ class Layout:
         cure = "run scripts/build" if self.repository else "install Deixis again"
         raise UserError(f"program {name} not found in {path.parent}: {cure}")
 
-    def config_file(self, name: str) -> Path:
-        """`name` as given when it exists, else below the configuration folder."""
-        given = Path(name)
-        return given if given.is_absolute() or given.exists() else self.config / name
+    def config_file(self, name: str, beside: Path) -> Path:
+        """`name` in the folder `beside` when it is there, else in a configuration folder."""
+        given = beside.absolute() / name  # An absolute name stays as it is.
+        return given if Path(name).is_absolute() or given.exists() else self.find_config(name)
+
+    def find_config(self, name: str) -> Path:
+        """`name` in the user's configuration folder when it is there, else in that of Deixis."""
+        own = self.own_config / name if self.own_config else None
+        return own if own and own.exists() else self.config / name
+
+    def environment(self) -> dict[str, str]:
+        """The environment for the programs, with the configuration folder."""
+        return {**os.environ, "DEIXIS_CONFIG_DIR": str(self.own_config or self.config)}
 
     def use_types(self) -> None:
         """Makes `import deixis` (the generated message types) work."""
@@ -64,6 +74,7 @@ def _repository(root: Path) -> Layout:
         types=build / "python",
         state=root,
         clips=root / "test" / "data" / "clips",
+        own_config=_own_config(),
     )
 
 
@@ -77,4 +88,15 @@ def _installed(prefix: Path, python: Path) -> Layout:
         types=python,
         state=Path(state) / "deixis",
         clips=share / "clips",
+        own_config=_own_config(),
     )
+
+
+def _own_config() -> Path | None:
+    given = os.environ.get("DEIXIS_CONFIG_DIR")
+    if not given:
+        return None
+    if not Path(given).is_dir():
+        raise UserError(f"DEIXIS_CONFIG_DIR={given}: no such folder: make it, or unset the"
+                        " variable")
+    return Path(given).absolute()

@@ -1,4 +1,4 @@
-"""LCM's own logger and player."""
+"""LCM's own logger, and what a log file is."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ from deixis_frontend.lcm_url import LcmUrl
 EVENT_MAGIC = b"\xed\xa1\xda\x01"  # every event of a log file begins with it
 
 
-def find_tool(name: str) -> str:
-    """Path of lcm-logger or lcm-logplayer, of the system or of this Python."""
+def find_logger() -> str:
+    """Path of lcm-logger, of the system or of this Python."""
+    name = "lcm-logger"
     path = shutil.which(name) or shutil.which(name, path=str(Path(sys.executable).parent))
     if path is None:
         raise UserError(f"{name} not found: run scripts/setup, or install the package liblcm-bin")
@@ -21,7 +22,7 @@ def find_tool(name: str) -> str:
 
 
 def url_option(url: LcmUrl) -> str:
-    """The option for both tools. `-l URL` is broken in lcm-logger 1.3.1; this form works."""
+    """The option for lcm-logger. `-l URL` is broken in 1.3.1; this form works."""
     return f"--lcm-url={url.with_receive_buffer()}"
 
 

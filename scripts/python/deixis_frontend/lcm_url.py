@@ -13,7 +13,11 @@ from deixis_frontend.errors import UserError
 
 DEFAULT = "udpm://239.255.76.67:7667?ttl=0"
 GROUP = "239.255.76.67"
-RECEIVE_BUFFER_BYTES = 4_000_000
+# The same as in common/transport/bus.h: a raw picture of 1280 x 960 (3.7 MB) fits in.
+RECEIVE_BUFFER_BYTES = 4 * 1024 * 1024
+TCP_HOST, TCP_PORT = "127.0.0.1", "7700"  # LCM's own defaults
+_CONNECTS_WITHIN_S = 2.0
+_RANGES = {"ttl": (0, 255), "recv_buf_size": (1, 2**31 - 1)}  # what a udpm URL may set
 _PROVIDERS = ("udpm", "tcpq", "memq", "file")
 CURE_ROUTE = (
     "give loopback a multicast route: `sudo ip route add 224.0.0.0/4 dev lo`"
@@ -66,6 +70,8 @@ def parse(text: str) -> LcmUrl:
     url = LcmUrl(provider, network, tuple(_parameter(text, part) for part in _split(query)))
     if provider == "udpm":
         _check_udpm(text, url)
+    if provider == "tcpq":
+        _check_port(text, network.partition(":")[2] or TCP_PORT)
     return url
 
 
@@ -96,13 +102,27 @@ def why_multicast_fails(group: str = GROUP, seconds: float = 0.3, tries: int = 3
         return f"multicast to {group} fails: {error.strerror or error}"
 
 
-def require_multicast(url: LcmUrl) -> None:
-    """Raises UserError with the cure when `url` needs multicast and there is none."""
-    if url.provider != "udpm":
-        return
-    reason = why_multicast_fails(url.group)
-    if reason:
-        raise UserError(f"{reason}: {CURE_ROUTE}")
+def require_bus(url: LcmUrl) -> None:
+    """Raises UserError with the cure when `url` leads to no other process."""
+    if url.provider == "udpm":
+        reason = why_multicast_fails(url.group)
+        if reason:
+            raise UserError(f"{reason}: {CURE_ROUTE}")
+    elif url.provider == "tcpq":
+        _require_server(url)
+    else:
+        raise UserError(f"LCM URL '{url}' leads to no other process: name a bus, for example"
+                        f" '{DEFAULT}', with -l or in LCM_DEFAULT_URL")
+
+
+def _require_server(url: LcmUrl) -> None:
+    host, _, port = url.network.partition(":")
+    try:
+        address = (host or TCP_HOST, int(port or TCP_PORT))
+        socket.create_connection(address, _CONNECTS_WITHIN_S).close()
+    except OSError as error:
+        raise UserError(f"nobody listens on '{url}' ({error.strerror or error}):"
+                        " start LCM's TCP server there, or name another URL with -l") from None
 
 
 def _split(query: str) -> list[str]:
@@ -118,14 +138,34 @@ def _parameter(text: str, part: str) -> tuple[str, str]:
 
 def _check_udpm(text: str, url: LcmUrl) -> None:
     host, _, port = url.network.partition(":")
-    if port and not (port.isdigit() and 1 <= int(port) <= 65535):
-        raise UserError(f"LCM URL '{text}': port '{port}' is not a number from 1 to 65535")
-    if host and not _is_multicast(host):
+    if url.network and not _is_multicast(host):
         raise UserError(f"LCM URL '{text}': '{host}' is no multicast group"
                         f" (224.0.0.0 to 239.255.255.255): write for example {GROUP}")
+    if url.network:
+        _check_port(text, port)
     for key, value in url.parameters:
-        if key in ("ttl", "recv_buf_size") and not value.isdigit():
-            raise UserError(f"LCM URL '{text}': {key} '{value}' is not a whole number")
+        _check_parameter(text, key, value)
+
+
+def _check_port(text: str, port: str) -> None:
+    if not port:
+        raise UserError(f"LCM URL '{text}' has no port: write for example {GROUP}:7667")
+    if not 1 <= _whole(port) <= 65535:
+        raise UserError(f"LCM URL '{text}': port '{port}' is not a number from 1 to 65535")
+
+
+def _check_parameter(text: str, key: str, value: str) -> None:
+    if key not in _RANGES:
+        raise UserError(f"LCM URL '{text}': unknown key '{key}': known are {', '.join(_RANGES)}")
+    low, high = _RANGES[key]
+    if not low <= _whole(value) <= high:
+        raise UserError(f"LCM URL '{text}': {key} '{value}' is not a whole number"
+                        f" from {low} to {high}")
+
+
+def _whole(text: str) -> int:
+    """The number; -1 when the text is none."""
+    return int(text) if text.isascii() and text.isdigit() else -1
 
 
 def _is_multicast(host: str) -> bool:

@@ -8,6 +8,7 @@ import zlib
 import numpy as np
 from bot_core import image_metadata_t, image_t, images_t
 
+CAMERA_KEY = "deixis.camera"
 SEQUENCE_KEY = "deixis.sequence"
 DEPTH_TYPES = (images_t.DEPTH_MM, images_t.DEPTH_MM_ZIPPED)
 
@@ -48,11 +49,12 @@ def to_bgr(image):
     raise ValueError(f"pixelformat {image.pixelformat} is neither BGR, RGB nor GRAY")
 
 
-def from_array(pixels, pixelformat, utime, sequence=None):
+def from_array(pixels, pixelformat, utime, sequence=None, camera=None):
     """image_t from pixels of the shape and type that to_array() returns for `pixelformat`.
 
-    `utime` is the capture time, microseconds; `sequence`, where given, becomes the metadata deixis.sequence.
-    ValueError if shape, type and format do not fit.
+    `utime` is the capture time, microseconds; `sequence` and `camera` (which one the pixels belong to), where
+    given, become the metadata deixis.sequence and deixis.camera. ValueError if shape, type and format do not
+    fit.
     """
     if pixelformat not in _LAYOUTS:
         raise ValueError(f"pixelformat {pixelformat} is not a raw one that is known")
@@ -61,16 +63,20 @@ def from_array(pixels, pixelformat, utime, sequence=None):
     if channels != 1 and pixels.shape[2] != channels:
         raise ValueError(f"pixels have {pixels.shape[2]} channels, pixelformat {pixelformat} has {channels}")
     return _image(pixels.shape, element.itemsize * channels, pixelformat,
-                  np.ascontiguousarray(pixels, element).tobytes(), utime, sequence)
+                  np.ascontiguousarray(pixels, element).tobytes(), utime, sequence, camera)
 
 
-def from_jpeg(jpeg, width, height, utime, sequence=None, channels=3):
-    """image_t from one JPEG file (bytes); width and height are those of the picture, pixels."""
+def from_jpeg(jpeg, width, height, utime, sequence=None, channels=3, camera=None):
+    """image_t from one JPEG file (bytes); width and height are those of the picture, pixels.
+
+    `utime`, `sequence` and `camera` as in from_array(). ValueError if it is no JPEG.
+    """
     if not bytes(jpeg[:2]) == b"\xff\xd8":
         raise ValueError("data do not begin like a JPEG file")
     if width <= 0 or height <= 0:
         raise ValueError(f"size {width} x {height} is not positive")
-    return _image((height, width), channels, image_t.PIXEL_FORMAT_MJPEG, bytes(jpeg), utime, sequence)
+    return _image((height, width), channels, image_t.PIXEL_FORMAT_MJPEG, bytes(jpeg), utime, sequence,
+                  camera)
 
 
 def jpeg_bytes(image):
@@ -85,13 +91,20 @@ def jpeg_bytes(image):
 
 def sequence_of(image):
     """The metadata deixis.sequence as int; None where there is none. ValueError if it is no number."""
-    for metadata in image.metadata:
-        if metadata.key == SEQUENCE_KEY:
-            try:
-                return int(bytes(metadata.value))
-            except ValueError:
-                raise ValueError(f"metadata {SEQUENCE_KEY} is {bytes(metadata.value)!r}, no number") from None
-    return None
+    value = _metadata(image, SEQUENCE_KEY)
+    try:
+        return None if value is None else int(value)
+    except ValueError:
+        raise ValueError(f"metadata {SEQUENCE_KEY} is {value!r}, no number") from None
+
+
+def camera_of(image):
+    """The metadata deixis.camera as str; None where there is none. ValueError if it is no UTF-8."""
+    value = _metadata(image, CAMERA_KEY)
+    try:
+        return None if value is None else value.decode()
+    except UnicodeDecodeError:
+        raise ValueError(f"metadata {CAMERA_KEY} is {value!r}, no UTF-8") from None
 
 
 def find(images, image_type):
@@ -121,7 +134,7 @@ def from_depth_mm(depth, utime, level=1):
     """A DEPTH_MM_ZIPPED image from (rows, columns) uint16 millimetres; `level` is zlib's, 1 (fast) to 9."""
     _check_array(depth, np.dtype("u2"), (2,))
     packed = zlib.compress(np.ascontiguousarray(depth, "<u2").tobytes(), level)
-    return _image(depth.shape, 2, image_t.PIXEL_FORMAT_INVALID, packed, utime, None)
+    return _image(depth.shape, 2, image_t.PIXEL_FORMAT_INVALID, packed, utime)
 
 
 def bundle(utime, typed_images):
@@ -134,7 +147,7 @@ def bundle(utime, typed_images):
     return images
 
 
-def _pixels(image, data, element, channels, is_zipped=False):
+def _pixels(image, data, element, channels, *, is_zipped=False):
     rows, columns, stride = image.height, image.width, image.row_stride
     pixel = element.itemsize * channels
     if rows <= 0 or columns <= 0:
@@ -182,7 +195,18 @@ def _check_images(images):
                          f"and {len(images.images)} images")
 
 
-def _image(shape, pixel_bytes, pixelformat, data, utime, sequence):
+def _metadata(image, key):
+    return next((bytes(metadata.value) for metadata in image.metadata if metadata.key == key), None)
+
+
+def _add_metadata(image, key, value):
+    metadata = image_metadata_t()
+    metadata.key, metadata.value, metadata.n = key, value, len(value)
+    image.metadata = [*image.metadata, metadata]
+    image.nmetadata = len(image.metadata)
+
+
+def _image(shape, pixel_bytes, pixelformat, data, utime, sequence=None, camera=None):
     image = image_t()
     image.utime = utime
     image.height, image.width = shape[:2]
@@ -190,8 +214,7 @@ def _image(shape, pixel_bytes, pixelformat, data, utime, sequence):
     image.pixelformat = pixelformat
     image.data, image.size = data, len(data)
     if sequence is not None:
-        metadata = image_metadata_t()
-        metadata.key, metadata.value = SEQUENCE_KEY, str(sequence).encode()
-        metadata.n = len(metadata.value)
-        image.metadata, image.nmetadata = [metadata], 1
+        _add_metadata(image, SEQUENCE_KEY, str(sequence).encode())
+    if camera is not None:
+        _add_metadata(image, CAMERA_KEY, camera.encode())
     return image

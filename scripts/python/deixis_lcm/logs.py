@@ -9,8 +9,11 @@ import importlib
 import io
 import os
 import struct
+import warnings
 
 import lcm
+
+from deixis_lcm.log_events import EventReader
 
 PACKAGES = ("deixis", "bot_core", "kinect")
 
@@ -48,24 +51,30 @@ def read(path, channels=None):
     """Yields (log_time_us, channel, message) of a log in the order of the file.
 
     `log_time_us` is when the logger received the message, microseconds; the capture time is in the message.
-    `channels` is a set of names, None for all. FileNotFoundError if there is no such file, ValueError (with channel
-    and time) if a message of a known type does not decode.
+    `channels` is a set of names, None for all. FileNotFoundError if there is no such file, ValueError if it is no log,
+    or (with channel and time) if a message of a known type does not decode. Damaged parts are passed over with a
+    warning (UserWarning) at the end.
     """
     if not os.path.isfile(path):
         raise FileNotFoundError(f"no log file {path}")
     types = types_by_fingerprint()
-    log = lcm.EventLog(str(path), "r")
+    count = 0
+    with EventReader(path) as events:
+        for event in events:
+            count += 1
+            if channels is None or event.channel in channels:
+                yield event.time_us, event.channel, _message(path, event, events.data(event), types)
+        if count == 0 and events.damaged_bytes:
+            raise ValueError(f"{path} is no LCM log: no event begins in it")
+        if events.damage():
+            warnings.warn(f"{path}: {count} messages were read; {events.damage()}", stacklevel=2)
+
+
+def _message(path, event, data, types):
     try:
-        for event in log:
-            if channels is not None and event.channel not in channels:
-                continue
-            try:
-                message = decode(event.data, types)
-            except ValueError as error:
-                raise ValueError(f"{path}: {event.channel} at {event.timestamp} us: {error}") from None
-            yield event.timestamp, event.channel, message
-    finally:
-        log.close()
+        return decode(data, types)
+    except ValueError as error:
+        raise ValueError(f"{path}: {event.channel} at {event.time_us} us: {error}") from None
 
 
 class Writer:

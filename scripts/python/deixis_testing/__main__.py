@@ -24,7 +24,7 @@ def main(argv: list[str]) -> int:
     return 1 if total.failed else 0
 
 
-def run(chosen: list[Suite], is_filtered: bool) -> Totals:
+def run(chosen: list[Suite], *, is_filtered: bool) -> Totals:
     """Runs the suites and prints the sum as the last line.
 
     A suite without tests is a failure; with a filter only that no suite at all has one.

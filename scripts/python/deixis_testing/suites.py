@@ -26,7 +26,7 @@ class Suite:
     no_tests_exit_codes: tuple[int, ...] = ()
     environment: dict[str, str] = field(default_factory=dict)
 
-    def run(self, may_be_empty: bool) -> Totals:
+    def run(self, *, may_be_empty: bool) -> Totals:
         """Runs the suite; whatever goes wrong with the runner itself counts as one more failure."""
         print(f"== {self.name}", flush=True)
         self.junit.parent.mkdir(parents=True, exist_ok=True)
@@ -34,18 +34,18 @@ class Suite:
         code = subprocess.run(self.command, env={**os.environ, **self.environment},
                               check=False).returncode
         if code in self.no_tests_exit_codes:
-            return self._without_tests(may_be_empty)
+            return self._without_tests(may_be_empty=may_be_empty)
         try:
             result = totals.read(self.junit)
         except ValueError as error:
             return self._broken(Totals(), f"{error}; the runner ended with exit code {code}")
         if not result.count:
-            return self._without_tests(may_be_empty)
+            return self._without_tests(may_be_empty=may_be_empty)
         if code and not result.failed:
             return self._broken(result, f"the runner ended with exit code {code}")
         return result
 
-    def _without_tests(self, may_be_empty: bool) -> Totals:
+    def _without_tests(self, *, may_be_empty: bool) -> Totals:
         return Totals() if may_be_empty else self._broken(Totals(), "no test was run")
 
     def _broken(self, result: Totals, reason: str) -> Totals:

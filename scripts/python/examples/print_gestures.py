@@ -5,14 +5,22 @@
 
 Listens where LCM_DEFAULT_URL says; the channel is GESTURES unless told otherwise.
 """
+import struct
 import sys
 
-import lcm
-from deixis import gesture_t
+try:
+    import lcm
+    from deixis import gesture_t
+except ModuleNotFoundError as error:
+    sys.exit(f"{error}: run it as\n{__doc__.splitlines()[2]}")
 
 
-def print_gesture(_, data):
-    gesture = gesture_t.decode(data)
+def print_gesture(channel, data):
+    try:
+        gesture = gesture_t.decode(data)
+    except (ValueError, struct.error) as error:
+        print(f"a message on {channel} is no gesture_t: {error}", file=sys.stderr, flush=True)
+        return
     if gesture.end_utime != 0:
         return  # told again because it has ended
     candidates = ", ".join(f"{c.label} (object {c.object_id}, {c.probability:.2f})" for c in gesture.candidates)

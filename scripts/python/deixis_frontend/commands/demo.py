@@ -7,16 +7,20 @@ import sys
 from pathlib import Path
 
 from deixis_frontend import layout as layouts
-from deixis_frontend import lcm_url
+from deixis_frontend import lcm_url, output_files
 from deixis_frontend.demo import live, one_process
 from deixis_frontend.demo.clip import Clip, open_clip
 from deixis_frontend.demo.commentary import Commentary
 from deixis_frontend.demo.stage import Stage
+from deixis_frontend.number_options import above_zero
+
+DEFAULT_BUS = "one on a free port of this host, so that nothing else is disturbed"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What to play, for how long, and whether to show it."""
-    parser.add_argument("--seconds", type=float, metavar="N", help="play N seconds of the clip")
+    parser.add_argument("--seconds", type=above_zero, metavar="N",
+                        help="play N seconds of the clip, or all of it if it is shorter")
     parser.add_argument("--clip", type=Path, metavar="FILE",
                         help="video, or folder with left.mp4 (default: the one that is shipped)")
     show = parser.add_mutually_exclusive_group()
@@ -29,28 +33,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """0 when gestures were recognised."""
+    """0 when gestures were recognised, or when --seconds ended the clip before its own end."""
     layout = layouts.find()
     clip = open_clip(arguments.clip, layout)
     layout.use_types()
     from deixis import gesture_t
 
     folder = (arguments.output or layout.state / "output" / "demo").resolve()
+    output_files.require_folder(folder, "--output")
     stage = Stage(layout, folder, arguments.window)
     stage.clear()
     commentary = Commentary(clip, gesture_t, arguments.seconds)
-    _play(clip, stage, commentary)
+    _play(clip, stage, commentary, arguments.lcm_url)
     print(commentary.verdict())
-    if not commentary.count:
-        print(f"deixis: no gesture was recognised: see the logs in {folder}", file=sys.stderr)
-    return 0 if commentary.count else 1
+    if commentary.count or commentary.is_over:
+        return 0
+    print(f"deixis: no gesture was recognised: see the logs in {folder}", file=sys.stderr)
+    return 1
 
 
-def _play(clip: Clip, stage: Stage, commentary: Commentary) -> None:
-    reason = lcm_url.why_multicast_fails()
+def _play(clip: Clip, stage: Stage, commentary: Commentary, url: str | None) -> None:
     print(f"playing {clip.video}; pictures go to {stage.pictures}", flush=True)
+    reason = None if url else lcm_url.why_multicast_fails()
     if not reason:
-        live.play(clip, stage, commentary)
+        live.play(clip, stage, commentary, lcm_url.parse(url) if url else lcm_url.with_free_port())
         return
     print(f"{reason}: the services run in one process instead, which takes a moment.\n"
           f"To see them live, {lcm_url.CURE_ROUTE}.", flush=True)

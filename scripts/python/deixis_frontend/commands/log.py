@@ -13,6 +13,7 @@ from typing import BinaryIO
 from deixis_frontend import layout as layouts
 from deixis_frontend.commands.system_option import add_names, add_system, open_system
 from deixis_frontend.errors import UserError
+from deixis_frontend.number_options import count
 from deixis_frontend.supervision.supervisor import log_folder
 
 _POLL_S = 0.2
@@ -23,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What to show, how much of it, and whether to go on."""
     add_names(parser, "whose log (default: all)")
     parser.add_argument("-f", "--follow", action="store_true", help="go on as lines come")
-    parser.add_argument("-n", "--lines", type=int, default=20, help="lines per service (20)")
+    parser.add_argument("-n", "--lines", type=count, default=20, help="lines per service (20)")
     add_system(parser)
 
 

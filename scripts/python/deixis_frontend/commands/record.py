@@ -12,7 +12,10 @@ from pathlib import Path
 from deixis_frontend import layout as layouts
 from deixis_frontend import lcm_url
 from deixis_frontend.errors import UserError
-from deixis_frontend.lcm_tools import find_tool, url_option
+from deixis_frontend.interrupts import end_as_by_ctrl_c
+from deixis_frontend.lcm_tools import find_logger, url_option
+from deixis_frontend.number_options import above_zero
+from deixis_frontend.output_files import UnfinishedFile
 
 _POLL_S = 0.1
 _SAY_EVERY_S = 2.0
@@ -23,24 +26,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("channels", nargs="*",
                         help="channels or regular expressions of them (default: all)")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE",
-                        help="log file (default: output/recordings/<time>.lcmlog)")
-    parser.add_argument("--seconds", type=float, metavar="N", help="stop after N seconds")
+                        help="log file (default: output/recordings/<time>.lcmlog);"
+                             " missing folders are created")
+    parser.add_argument("--seconds", type=above_zero, metavar="N", help="stop after N seconds")
     parser.add_argument("--force", action="store_true", help="replace a file that is there")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """0 when messages were recorded."""
+    """0 when messages were recorded; Ctrl-C, SIGTERM and SIGHUP end the recording alike."""
     url = lcm_url.choose(arguments.lcm_url)
-    lcm_url.require_multicast(url)
+    lcm_url.require_bus(url)
+    command = [find_logger(), url_option(url), "--quiet", "--force",
+               f"--channel={_pattern(arguments.channels)}"]
     output = arguments.output or _default_output()
-    _prepare(output, arguments.force)
-    command = [find_tool("lcm-logger"), url_option(url), "--quiet", "--force",
-               f"--channel={_pattern(arguments.channels)}", str(output)]
+    _make_folder(output.parent)
+    file = UnfinishedFile(output, "--output", may_replace=arguments.force)
     print(f"recording to {output}" + ("" if arguments.seconds else "; Ctrl-C stops"), flush=True)
-    logger = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                              start_new_session=True)
-    _wait(logger, arguments.seconds, output)
-    return _conclude(logger, output)
+    end_as_by_ctrl_c(signal.SIGTERM, signal.SIGHUP)
+    logger = subprocess.Popen([*command, str(file.path)], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True, start_new_session=True)
+    _wait(logger, arguments.seconds, file)
+    return _conclude(logger, file)
 
 
 def _default_output() -> Path:
@@ -48,23 +54,23 @@ def _default_output() -> Path:
     return folder / time.strftime("%Y-%m-%d_%H-%M-%S.lcmlog")
 
 
-def _prepare(output: Path, may_replace: bool) -> None:
-    if output.exists() and not may_replace:
-        raise UserError(f"{output} is there already: name another --output, or give --force")
+def _make_folder(folder: Path) -> None:
+    """As lcm-logger does; said aloud, since a folder that was not there may be a slip."""
+    if folder.exists():
+        return
     try:
-        output.parent.mkdir(parents=True, exist_ok=True)
-        with output.open("wb"):
-            return
+        folder.mkdir(parents=True)
     except OSError as error:
-        raise UserError(f"{output} cannot be written: {error.strerror}:"
+        raise UserError(f"the folder {folder} cannot be made: {error.strerror}:"
                         " name another --output") from None
+    print(f"created the folder {folder}", flush=True)
 
 
 def _pattern(channels: list[str]) -> str:
     return "|".join(f"({channel})" for channel in channels) if channels else ".*"
 
 
-def _wait(logger: subprocess.Popen[str], seconds: float | None, output: Path) -> None:
+def _wait(logger: subprocess.Popen[str], seconds: float | None, file: UnfinishedFile) -> None:
     began = said = time.monotonic()
     try:
         while logger.poll() is None:
@@ -72,24 +78,28 @@ def _wait(logger: subprocess.Popen[str], seconds: float | None, output: Path) ->
             if seconds is not None and now - began >= seconds:
                 break
             if now - said >= _SAY_EVERY_S and sys.stdout.isatty():
-                print(f"\r{now - began:.0f} s, {_megabytes(output)}", end="", flush=True)
+                print(f"\r{now - began:.0f} s, {_megabytes(file)}", end="", flush=True)
                 said = now
             time.sleep(_POLL_S)
     except KeyboardInterrupt:
         print()
-    logger.send_signal(signal.SIGINT)
+    finally:
+        logger.send_signal(signal.SIGINT)  # It is in a session of its own: nobody else ends it.
 
 
-def _conclude(logger: subprocess.Popen[str], output: Path) -> int:
+def _conclude(logger: subprocess.Popen[str], file: UnfinishedFile) -> int:
     said = (logger.communicate()[1] or "").strip().splitlines()
+    is_empty = not file.size
+    if is_empty:
+        file.discard()
     if logger.returncode not in (0, -signal.SIGINT):
-        raise UserError(f"recording to {output} ended: {_reason(said)}."
-                        " What was recorded before is kept and can be replayed")
-    if not output.stat().st_size:
-        output.unlink()
+        kept = "" if is_empty else f"; what came before is kept in {file.path} and can be replayed"
+        raise UserError(f"recording to {file.target} ended: {_reason(said)}{kept}")
+    if is_empty:
         raise UserError("nothing was recorded: are the services running on this LCM URL?"
                         " (`deixis status`)")
-    print(f"recorded {_megabytes(output)} to {output}")
+    print(f"recorded {_megabytes(file)} to {file.target}")
+    file.keep()
     return 0
 
 
@@ -99,5 +109,5 @@ def _reason(said: list[str]) -> str:
     return said[-1] if said else "lcm-logger gave no reason"
 
 
-def _megabytes(path: Path) -> str:
-    return f"{path.stat().st_size / 1e6:.1f} MB"
+def _megabytes(file: UnfinishedFile) -> str:
+    return f"{file.size / 1e6:.1f} MB"

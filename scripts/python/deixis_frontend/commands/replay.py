@@ -3,38 +3,49 @@
 from __future__ import annotations
 
 import argparse
-import subprocess
+import re
+import sys
 from pathlib import Path
 
-from deixis_frontend import lcm_url
+from deixis_frontend import lcm_url, log_player
+from deixis_frontend.bus import open_bus
 from deixis_frontend.errors import UserError
-from deixis_frontend.lcm_tools import find_tool, require_log, url_option
+from deixis_frontend.lcm_tools import require_log
+from deixis_frontend.log_player import Played
+from deixis_frontend.number_options import above_zero
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What, and how fast."""
     parser.add_argument("file", type=Path, help="log file")
-    parser.add_argument("--speed", type=_speed, default=1.0, metavar="X",
+    parser.add_argument("--speed", type=above_zero, default=1.0, metavar="X",
                         help="2 = twice as fast as recorded (default: 1)")
-    parser.add_argument("--channels", default=".*", metavar="REGEX",
+    parser.add_argument("--channels", type=_pattern, default=".*", metavar="REGEX",
                         help="only these (default: all)")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """0 when the log was played to its end."""
+    """0 when messages were published and the log was played to its end, damaged or not."""
     url = lcm_url.choose(arguments.lcm_url)
     require_log(arguments.file)
-    lcm_url.require_multicast(url)
-    command = [find_tool("lcm-logplayer"), url_option(url), f"--speed={arguments.speed:g}",
-               f"--regexp={arguments.channels}", str(arguments.file)]
-    code = subprocess.run(command, check=False).returncode
-    if code:
-        raise UserError(f"lcm-logplayer ended with exit code {code}: see its message above")
+    played = log_player.play(arguments.file, open_bus(url), arguments.channels, arguments.speed)
+    if played.damage:
+        print(f"deixis: {arguments.file}: {played.damage}", file=sys.stderr)
+    if not played.published:
+        raise UserError(_why_nothing(arguments, played))
+    print(f"published {played.published} messages ({played.bytes / 1e6:.1f} MB) on {url}")
     return 0
 
 
-def _speed(text: str) -> float:
-    speed = float(text)
-    if not speed > 0:
-        raise argparse.ArgumentTypeError("must be above 0")
-    return speed
+def _why_nothing(arguments: argparse.Namespace, played: Played) -> str:
+    if not played.other_channels:
+        return f"nothing was published: {arguments.file} holds no whole message"
+    return (f"nothing was published: no channel is '{arguments.channels.pattern}': {arguments.file}"
+            f" has {', '.join(sorted(played.other_channels))}")
+
+
+def _pattern(text: str) -> re.Pattern[str]:
+    try:
+        return re.compile(text)
+    except re.error as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is no regular expression: {error}") from None

@@ -7,7 +7,9 @@ import argparse
 from deixis_frontend import lcm_url
 from deixis_frontend.commands import start
 from deixis_frontend.commands.system_option import (
-    add_names, add_system, open_system, print_service)
+    add_names, add_system, has_ended, open_system, print_service)
+from deixis_frontend.supervision.control_client import Client
+from deixis_frontend.supervision.system_file import System
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -17,16 +19,31 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """0 when all have got ready again."""
+    """0 when all that the system file still has have got ready again."""
     system, client = open_system(arguments)
     system.resolve(arguments.names)
     if not client.is_supervised():
         return start.run(arguments)
     if arguments.names:
         return 0 if client.command("restart", arguments.names, print_service)["ok"] else 1
+    return _restart_all(arguments, system, client)
+
+
+def _restart_all(arguments: argparse.Namespace, system: System, client: Client) -> int:
+    """With a new supervisor, which reads the system file anew."""
     url = client.command("status", [])["status"]["lcm_url"]
     running = client.command("stop", [])["stopped"]
-    client.wait_until_gone()
-    arguments.names = [name for name in running if name in system.services]
+    if not has_ended(client):
+        return 1
+    arguments.names = _still_there(running, system)
+    if running and not arguments.names:
+        return 0  # Without names, `start` would take what the file starts by default.
     arguments.lcm_url = str(lcm_url.parse(arguments.lcm_url or url))
     return start.run(arguments)
+
+
+def _still_there(running: list[str], system: System) -> list[str]:
+    for name in running:
+        if name not in system.services:
+            print(f"{name} is stopped: it is not in {system.path} any more")
+    return [name for name in running if name in system.services]

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import os
+import signal
+import subprocess
 import sys
 from pathlib import Path
 
 from deixis_frontend import layout as layouts
+from deixis_frontend.errors import UserError
+from deixis_frontend.interrupts import INTERRUPTED, end_as_by_ctrl_c
 from deixis_frontend.lcm_tools import require_log
+from deixis_frontend.output_files import UnfinishedFile
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -22,21 +26,40 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="another configuration file for a service; repeatable")
     parser.add_argument("--results-only", action="store_true",
                         help="leave the input's messages out of the output")
+    parser.add_argument("--force", action="store_true", help="replace an output that is there")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Exit code of deixis-offline, which takes the place of this process."""
+    """Exit code of deixis-offline; the output is written when that is 0, else it is as it was."""
     layout = layouts.find()
     require_log(arguments.input)
-    command = offline_command(layout, arguments.input, arguments.output, arguments.set,
-                              arguments.services)
-    for assignment in arguments.config:
-        command += ["--config", assignment]
-    if arguments.results_only:
-        command.append("--results-only")
-    sys.stdout.flush()
-    os.environ.setdefault("DEIXIS_CONFIG_DIR", str(layout.config))
-    os.execv(command[0], command)
+    if arguments.output.resolve() == arguments.input.resolve():
+        raise UserError(f"input and output are the same file {arguments.input}: name another")
+    layout.program("deixis-offline")
+    end_as_by_ctrl_c(signal.SIGTERM, signal.SIGHUP)
+    with UnfinishedFile(arguments.output, "output", may_replace=arguments.force) as output:
+        code = _run([*offline_command(layout, arguments.input, output.path, arguments.set,
+                                      arguments.services), *_more_options(arguments)], layout)
+        if code == 0:
+            output.keep()
+        elif code == INTERRUPTED:
+            print(f"deixis: interrupted: {arguments.output} was not written", file=sys.stderr)
+    return code
+
+
+def _more_options(arguments: argparse.Namespace) -> list[str]:
+    options = [word for assignment in arguments.config for word in ("--config", assignment)]
+    return [*options, "--results-only"] if arguments.results_only else options
+
+
+def _run(command: list[str], layout: layouts.Layout) -> int:
+    process = subprocess.Popen(command, env=layout.environment())
+    try:
+        return process.wait()
+    except KeyboardInterrupt:
+        process.terminate()
+        process.wait()
+        return INTERRUPTED
 
 
 def offline_command(layout: layouts.Layout, source: Path, target: Path, settings: list[str],

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from deixis_frontend.commands.system_option import (
-    add_names, add_system, open_system, print_service)
+    add_names, add_system, has_ended, open_system, print_service)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,7 +22,4 @@ def run(arguments: argparse.Namespace) -> int:
         print("nothing is running")
         return 0
     client.command("stop", arguments.names, print_service)
-    if not arguments.names and not client.wait_until_gone():
-        print(f"deixis: the supervisor has not ended: see {client.log_file}", file=sys.stderr)
-        return 1
-    return 0
+    return 0 if arguments.names or has_ended(client) else 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -28,8 +29,16 @@ def add_names(parser: argparse.ArgumentParser, meaning: str) -> None:
 def open_system(arguments: argparse.Namespace) -> tuple[System, Client]:
     """The system that the arguments name, and how to talk to its supervisor."""
     layout = layouts.find()
-    system = system_file.load(arguments.system or layout.config / "system.yaml")
+    system = system_file.load(arguments.system or layout.find_config("system.yaml"))
     return system, Client(system, layout)
+
+
+def has_ended(client: Client) -> bool:
+    """Waits for the supervisor to end; says so when it does not."""
+    if client.wait_until_gone():
+        return True
+    print(f"deixis: the supervisor has not ended: see {client.log_file}", file=sys.stderr)
+    return False
 
 
 def print_service(facts: dict[str, Any]) -> None:

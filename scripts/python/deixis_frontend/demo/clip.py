@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
 from pathlib import Path
 
+from deixis_frontend import csv_table
 from deixis_frontend.errors import UserError
 from deixis_frontend.layout import Layout
 
@@ -59,6 +59,6 @@ def _present(path: Path) -> Path | None:
 def _labels(path: Path) -> tuple[Label, ...]:
     if not path.is_file():
         return ()
-    with path.open(encoding="utf-8", newline="") as file:
-        return tuple(Label(int(row["start_frame"]), int(row["end_frame"]), row["object_label"])
-                     for row in csv.DictReader(file))
+    columns = ("start_frame", "end_frame", "object_label")
+    return tuple(Label(row.whole("start_frame"), row.whole("end_frame"), row.text("object_label"))
+                 for row in csv_table.read(path, columns))

@@ -57,8 +57,9 @@ class Commentary:
 
     def verdict(self) -> str:
         """How many of the gestures that were played were named right."""
-        played = [label for label in self._clip.labels if self._was_played(label)]
-        right = [label for label in played if self._is_named(label)]
+        right = [label for label in self._clip.labels if self._is_named(label)]
+        played = [label for label in self._clip.labels
+                  if label in right or self._was_played(label)]
         if not self._clip.labels:
             return f"{self.count} gestures recognised; the clip comes without labels"
         return (f"{len(right)} of {len(played)} pointing gestures were named right"
@@ -72,10 +73,14 @@ class Commentary:
         return frame * statistics.median([later - earlier for earlier, later in pairs]) / 1e6
 
     def _was_played(self, label: Label) -> bool:
+        """True when the clip was not cut off before the gesture could be named."""
+        late_s = _LATE_S if self.is_over else 0.0
         return (len(self._picture_times) > 1
-                and self._frame_time(label.end_frame) <= self.played_s)
+                and self._frame_time(label.end_frame) + late_s <= self.played_s)
 
     def _is_named(self, label: Label) -> bool:
+        if len(self._picture_times) < 2:
+            return False
         begin = self._frame_time(label.start_frame)
         end = self._frame_time(label.end_frame) + _LATE_S
         return any(begin <= self._clip_time(event.utime) <= end

@@ -7,13 +7,13 @@ import os
 import time
 from typing import Any
 
-from deixis_frontend import lcm_url
 from deixis_frontend.bus import open_bus
 from deixis_frontend.commands.system_option import print_service
 from deixis_frontend.demo.clip import Clip
 from deixis_frontend.demo.commentary import Commentary
 from deixis_frontend.demo.stage import Stage
 from deixis_frontend.errors import UserError
+from deixis_frontend.lcm_url import LcmUrl
 from deixis_frontend.supervision import system_file
 from deixis_frontend.supervision.control_client import Client
 
@@ -22,13 +22,14 @@ _LAST_WORDS_S = 1.0  # gestures may come so long after the last picture
 _CHECK_EVERY_S = 0.5
 
 
-def play(clip: Clip, stage: Stage, commentary: Commentary) -> None:
+def play(clip: Clip, stage: Stage, commentary: Commentary, url: LcmUrl) -> None:
     """Starts the services, comments until the clip or the time is over, stops the services."""
-    url = lcm_url.with_free_port()
     path = stage.folder / "system.yaml"
     path.write_text(json.dumps(_system(clip, stage), indent=2), encoding="utf-8")
     client = Client(system_file.load(path), stage.layout)
     bus = open_bus(url)
+    print(f"on the bus {url}: print_gestures.py listens there with LCM_DEFAULT_URL='{url}'",
+          flush=True)
     subscriptions = [bus.subscribe("CAMERA", lambda _, data: commentary.see_picture(data)),
                      bus.subscribe("GESTURES", lambda _, data: commentary.hear_gesture(data))]
     for subscription in subscriptions:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +13,7 @@ from deixis_frontend.demo.commentary import Commentary
 from deixis_frontend.demo.stage import Stage
 from deixis_frontend.errors import UserError
 from deixis_frontend.layout import Layout
+from deixis_frontend.programs import last_words
 
 _SERVICES = "object_detector,hand_tracker,gesture_recogniser"
 # Times as fast as recorded. The viewer takes the newest picture: at full speed it skips most.
@@ -52,16 +52,15 @@ def _on_log(program: str, log: str, settings: dict[str, str], layout: Layout) ->
 
 
 def _run(command: list[str], stage: Stage) -> None:
-    environment = {"DEIXIS_CONFIG_DIR": str(stage.layout.config), **os.environ}
     log = stage.folder / "logs" / f"{Path(command[0]).name}.log"
     log.parent.mkdir(exist_ok=True)
     with log.open("wb") as file:
-        code = subprocess.run(command, env=environment, stdout=file, stderr=file,
+        code = subprocess.run(command, env=stage.layout.environment(), stdout=file, stderr=file,
                               check=False).returncode
     if code:
-        lines = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()
+        said = last_words(log.read_text(encoding="utf-8", errors="replace"))
         raise UserError(f"{Path(command[0]).name} ended with exit code {code}:"
-                        f" {lines[-1] if lines else f'see {log}'}")
+                        f" {said or f'see {log}'}")
 
 
 def _events(log: Path) -> Iterator[tuple[str, bytes]]:

@@ -7,27 +7,28 @@ For every video in a folder the shipped programs run offline. Where the folder h
 from __future__ import annotations
 
 import argparse
-import csv
-import json
-import subprocess
-import tempfile
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from deixis_frontend import layout
+from deixis_frontend import csv_table, layout
+from deixis_frontend.csv_table import Row
 from deixis_frontend.errors import UserError
+from deixis_frontend.evaluation import report_options
+from deixis_frontend.evaluation.offline_chain import results_of_video
 
 VIDEOS = (".mp4", ".avi", ".mkv", ".mov")
-SERVICES = "object_detector,hand_tracker,gesture_recogniser"
+_TRUTH_COLUMNS = ("first_frame", "last_frame", "event", "target")
+SERVICES = ("object_detector", "hand_tracker", "gesture_recogniser")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Which videos, what can be pointed at, and where the events go."""
     parser.add_argument("--data", type=Path, required=True, metavar="DIR", help="folder of videos")
     parser.add_argument("--only", default="*", metavar="GLOB", help="names of videos to use")
     parser.add_argument("--places", type=Path, metavar="FILE",
                         help="things to point at (format of config/objects); default: none")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the events as JSON")
+    report_options.add_json(parser, "events")
 
 
 @dataclass(frozen=True)
@@ -44,9 +45,12 @@ class Event:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    """0; raises UserError when there is no video."""
+    report_options.check(arguments)
     where = layout.find()
-    where.use_types()
-    videos = sorted(p for p in arguments.data.glob(arguments.only) if p.suffix.lower() in VIDEOS)
+    if arguments.places and not arguments.places.is_file():
+        raise UserError(f"--places {arguments.places}: no such file")
+    videos = sorted(p for p in arguments.data.glob(arguments.only or "*") if p.suffix.lower() in VIDEOS)
     if not videos:
         raise UserError(f"no videos in {arguments.data} that match '{arguments.only}'")
     sequences = [_evaluate(where, video, arguments.places) for video in videos]
@@ -55,43 +59,25 @@ def run(arguments: argparse.Namespace) -> int:
     summary = {"videos": len(sequences), "minutes": sum(s["seconds"] for s in sequences) / 60.0,
                "events": sum(len(s["events"]) for s in sequences)}
     print(f"{summary['events']} events in {summary['minutes']:.2f} minutes of {len(sequences)} videos")
-    if arguments.json:
-        arguments.json.write_text(json.dumps({"sequences": sequences, "summary": summary}, indent=2))
+    report_options.write_json(arguments, {"sequences": sequences, "summary": summary})
     return 0
 
 
 def _evaluate(where: layout.Layout, video: Path, places: Path | None) -> dict[str, Any]:
-    with tempfile.TemporaryDirectory() as folder:
-        pictures, results = Path(folder) / "in.lcmlog", Path(folder) / "out.lcmlog"
-        _call(where, "deixis-camera-driver", "--set", "source.kind=video",
-              "--set", f"source.path={video.resolve()}", "--set", "pace=as_fast_as_possible",
-              "--lcm-url", f"file://{pictures}?mode=w")
-        _call(where, "deixis-offline", str(pictures), str(results), "--services", SERVICES,
-              "--results-only", *_places(places))
-        times, gestures = _read(results)
+    times, gestures = _recognise(where, video, places)
     truth = _truth(video.parent / "events.csv")
     return {"name": video.name, "frames": len(times), "seconds": _seconds(times),
             "events": [asdict(_event(g, times, truth)) for g in gestures]}
 
 
-def _places(places: Path | None) -> list[str]:
-    return ["--set", f"object_detector.places.file={places.resolve()}"] if places else []
-
-
-def _call(where: layout.Layout, program: str, *arguments: str) -> None:
-    done = subprocess.run([str(where.program(program)), *arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        lines = done.stderr.strip().splitlines()
-        raise UserError(f"{program} failed: {lines[-1] if lines else done.returncode}")
-
-
-def _read(log: Path) -> tuple[list[int], list[Any]]:
+def _recognise(where: layout.Layout, video: Path,
+               places: Path | None) -> tuple[list[int], list[Any]]:
     """Capture times of all pictures, microseconds, and all gestures."""
-    from deixis_lcm import logs
-
+    settings = [f"object_detector.places.file={places.resolve()}"] if places else []
     times: list[int] = []
     gestures: dict[int, Any] = {}
-    for _, channel, message in logs.read(log, channels={"GESTURE_STATE", "GESTURES"}):
+    for channel, message in results_of_video(where, video, SERVICES,
+                                             {"GESTURE_STATE", "GESTURES"}, settings):
         if channel == "GESTURES":
             gestures.setdefault(message.event_id, message)  # Told again when its end is known.
         else:
@@ -103,10 +89,10 @@ def _seconds(times: list[int]) -> float:
     return (times[-1] - times[0]) / 1e6 if times else 0.0
 
 
-def _event(gesture: Any, times: list[int], truth: list[dict[str, str]]) -> Event:
+def _event(gesture: Any, times: list[int], truth: list[Row]) -> Event:
     frame = min(range(len(times)), key=lambda i: abs(times[i] - gesture.utime)) if times else 0
-    happened = next((row for row in truth
-                     if int(row["first_frame"]) <= frame <= int(row["last_frame"])), {})
+    happened = next((row.values for row in truth
+                     if row.whole("first_frame") <= frame <= row.whole("last_frame")), {})
     outcome = {gesture.OBJECT: "object", gesture.NO_OBJECT: "no object",
                gesture.AMBIGUOUS: "ambiguous"}[gesture.outcome]
     best = gesture.candidates[0].probability if gesture.candidates else 0.0
@@ -114,11 +100,8 @@ def _event(gesture: Any, times: list[int], truth: list[dict[str, str]]) -> Event
                  gesture.object_label, best, happened.get("event", ""), happened.get("target", ""))
 
 
-def _truth(path: Path) -> list[dict[str, str]]:
-    if not path.exists():
-        return []
-    with path.open(newline="") as file:
-        return list(csv.DictReader(file))
+def _truth(path: Path) -> list[Row]:
+    return csv_table.read(path, _TRUTH_COLUMNS) if path.exists() else []
 
 
 def _print(sequence: dict[str, Any]) -> None:

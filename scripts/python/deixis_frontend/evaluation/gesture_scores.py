@@ -37,20 +37,24 @@ class Score:
     delays_s: list[float] = field(default_factory=list)
 
     def add(self, other: Score) -> None:
+        """Takes in the counts of another score."""
         for name, value in vars(other).items():
             setattr(self, name, getattr(self, name) + value)
 
     @property
     def wer_percent(self) -> float:
+        """Word error rate: insertions, deletions and substitutions per expected gesture."""
         errors = self.insertions + self.deletions + self.substitutions
         return 100.0 * errors / max(1, self.expected)
 
     @property
     def recognition_percent(self) -> float:
+        """Share of the expected gestures that were recognised with their object."""
         return 100.0 * self.correct / max(1, self.expected)
 
     @property
     def false_alarms_per_min(self) -> float:
+        """Insertions outside of every gesture, per minute outside of every gesture."""
         return self.free_alarms / self.free_minutes if self.free_minutes > 0 else 0.0
 
 
@@ -59,23 +63,20 @@ def score_sequence(
     events: Iterable[RecognisedGesture],
     fps: float,
     frames: int,
+    *,
     names_objects: bool = True,
 ) -> Score:
     """Scores one sequence; without `names_objects` time alone decides (column `none`)."""
     score = Score(expected=len(gestures), free_minutes=_free_minutes(gestures, fps, frames))
-    found: dict[int, bool] = {}
+    found: dict[int, bool] = {}  # index of a gesture -> its object was named
     for event in sorted(events, key=lambda e: e.time_s):
         index = _gesture_at(gestures, event.time_s, fps)
-        if index is None:
+        if index is None or index in found:
             score.insertions += 1
-            score.free_alarms += _is_free(gestures, event.time_s, fps)
-        elif index in found:
-            score.insertions += 1
+            score.free_alarms += index is None and _is_free(gestures, event.time_s, fps)
         else:
-            gesture = gestures[index]
-            found[index] = not names_objects or event.object_id == gesture.object_id
-            score.ambiguous += event.outcome == "ambiguous"
-            score.delays_s.append(event.time_s - gesture.apex_frame / fps)
+            found[index] = not names_objects or event.object_id == gestures[index].object_id
+            _note_recognition(score, event, gestures[index].apex_frame / fps)
     score.correct = sum(found.values())
     score.substitutions = len(found) - score.correct
     score.deletions = len(gestures) - len(found)
@@ -99,6 +100,11 @@ def summarise(scores: list[Score]) -> dict[str, float]:
         summary["decision_delay_median_s"] = round(median(delays), 3)
         summary["decision_delay_p90_s"] = round(sorted(delays)[int(0.9 * (len(delays) - 1))], 3)
     return summary
+
+
+def _note_recognition(score: Score, event: RecognisedGesture, apex_s: float) -> None:
+    score.ambiguous += event.outcome == "ambiguous"
+    score.delays_s.append(event.time_s - apex_s)
 
 
 def _gesture_at(gestures: list[LabelledGesture], time_s: float, fps: float) -> int | None:

@@ -35,6 +35,7 @@ class HandRecording:
 
 
 def read_recordings(data: Path, only: str | None) -> tuple[list[HandRecording], list[Skipped]]:
+    """The recordings in `data` whose name matches the glob `only`, and those without labelled hands."""
     sequences, skipped = read_sequences(data, only, ("joints.csv", "left.mp4"))
     recordings = [_from_sequence(sequence) for sequence in sequences]
     for video in sorted([*data.glob("*.mp4"), *data.glob("*.avi")]):

@@ -22,6 +22,8 @@ class TrueHand:
 
 @dataclass(frozen=True)
 class TrackedHand:
+    """A hand as the tracker published it in one image."""
+
     id: int
     side: str  # "right", "left", "unknown"
     centre_px: tuple[float, float]
@@ -42,10 +44,12 @@ class HandScore:
     errors_px: list[float] = field(default_factory=list)
 
     def add(self, other: HandScore) -> None:
+        """Takes in the counts of another score."""
         for name in vars(other):
             setattr(self, name, getattr(self, name) + getattr(other, name))
 
     def figures(self) -> dict[str, Any]:
+        """What is reported; None where there was nothing to measure."""
         return {
             "error_median_px": _percentile(self.errors_px, 50),
             "error_p90_px": _percentile(self.errors_px, 90),

@@ -6,16 +6,15 @@ Runs the shipped programs: camera driver (video to log), object detector and han
 from __future__ import annotations
 
 import argparse
-import json
-import subprocess
-import tempfile
 from pathlib import Path
 from typing import Any
 
 from deixis_frontend import layout
 from deixis_frontend.errors import UserError
+from deixis_frontend.evaluation import report_options
 from deixis_frontend.evaluation.hand_recordings import HandRecording, read_recordings
 from deixis_frontend.evaluation.hand_scores import HandScore, TrackedHand, TrueHand, score
+from deixis_frontend.evaluation.offline_chain import results_of_video
 
 _SIDES = {0: "unknown", 1: "left", 2: "right"}
 _HEADING = (f"{'recording':<14}{'frames':>7}{'hands':>7}{'error px':>10}{'p90':>7}{'missed %':>10}"
@@ -23,38 +22,46 @@ _HEADING = (f"{'recording':<14}{'frames':>7}{'hands':>7}{'error px':>10}{'p90':>
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Which recordings, which settings, and where the figures go."""
     parser.add_argument("--data", type=Path, required=True, metavar="DIR",
                         help="folder of sequence folders, or of videos with labelled hands")
     parser.add_argument("--only", metavar="GLOB", help="names of recordings to use")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON")
-    parser.add_argument("--plots", type=Path, metavar="DIR", help="write pictures of the errors")
+    report_options.add_json(parser)
+    report_options.add_plots(parser, "errors")
     parser.add_argument("--set", dest="settings", action="append", default=[], metavar="KEY=VALUE",
                         help="override a key of hand_tracker.yaml")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    where = layout.find()
-    where.use_types()
+    """0; raises UserError when there is nothing to measure."""
+    report_options.check(arguments)
     recordings, skipped = read_recordings(arguments.data, arguments.only)
     for left_out in skipped:
         print(f"not used: {left_out.name} ({left_out.reason})")
     if not recordings:
         raise UserError(f"no labelled hands in {arguments.data}: nothing was measured")
+    rows, summary = _evaluate_all(recordings, arguments.settings, arguments.plots)
+    report_options.write_json(arguments, {"sequences": rows, "summary": summary,
+                                          "skipped": [vars(s) for s in skipped]})
+    return 0
+
+
+def _evaluate_all(recordings: list[HandRecording], settings: list[str],
+                  plots: Path | None) -> tuple[list[dict[str, Any]], dict[str, Any]]:
+    """The figures of each recording, printed as they come, and those of all together."""
+    where = layout.find()
     print(_HEADING)
     rows, total = [], HandScore()
     for recording in recordings:
-        result = _evaluate(where, recording, arguments.settings)
+        result = _evaluate(where, recording, settings)
         total.add(result)
         rows.append({"name": recording.name, **result.figures()})
         _print(rows[-1])
-        if arguments.plots:
-            _plot(recording.name, result, arguments.plots)
+        if plots:
+            _plot(recording.name, result, plots)
     summary = total.figures()
     _print({"name": "all", **summary})
-    if arguments.json:
-        report = {"sequences": rows, "summary": summary, "skipped": [vars(s) for s in skipped]}
-        arguments.json.write_text(json.dumps(report, indent=2) + "\n")
-    return 0
+    return rows, summary
 
 
 def _evaluate(where: layout.Layout, recording: HandRecording, settings: list[str]) -> HandScore:
@@ -73,24 +80,10 @@ def _evaluate(where: layout.Layout, recording: HandRecording, settings: list[str
 
 def _track(where: layout.Layout, video: Path, settings: list[str]) -> list[Any]:
     """One hand message per picture, in order."""
-    from deixis_lcm import logs
-
-    with tempfile.TemporaryDirectory() as folder:
-        pictures, results = Path(folder) / "in.lcmlog", Path(folder) / "out.lcmlog"
-        _call(where, "deixis-camera-driver", "--set", "source.kind=video",
-              "--set", f"source.path={video.resolve()}", "--set", "pace=as_fast_as_possible",
-              "--lcm-url", f"file://{pictures}?mode=w")
-        overrides = [part for setting in settings for part in ("--set", f"hand_tracker.{setting}")]
-        _call(where, "deixis-offline", str(pictures), str(results), "--services",
-              "object_detector,hand_tracker", "--results-only", *overrides)
-        return [message for _, _, message in logs.read(results, channels={"HAND_TRACKS"})]
-
-
-def _call(where: layout.Layout, program: str, *arguments: str) -> None:
-    done = subprocess.run([str(where.program(program)), *arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        lines = done.stderr.strip().splitlines()
-        raise UserError(f"{program} failed: {lines[-1] if lines else done.returncode}")
+    overrides = [f"hand_tracker.{setting}" for setting in settings]
+    results = results_of_video(where, video, ("object_detector", "hand_tracker"), {"HAND_TRACKS"},
+                               overrides)
+    return [message for _, message in results]
 
 
 def _tracked(message: Any) -> list[TrackedHand]:

@@ -7,7 +7,6 @@ rate that is asked for. The figures come from their SERVICE_STATUS and from /pro
 from __future__ import annotations
 
 import argparse
-import json
 import subprocess
 import tempfile
 import time
@@ -17,6 +16,8 @@ from typing import Any
 from deixis_frontend import layout, lcm_url
 from deixis_frontend.bus import open_bus
 from deixis_frontend.errors import UserError
+from deixis_frontend.evaluation import report_options
+from deixis_frontend.number_options import above_zero
 from deixis_frontend.supervision.process_facts import cpu_seconds, resident_bytes
 from deixis_frontend.supervision.status_listener import CHANNEL, as_facts
 
@@ -27,14 +28,17 @@ SETTLING_S = 2.5
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What to play, at which rate, for how long, and where the figures go."""
     parser.add_argument("--clip", type=Path, metavar="FILE",
                         help="video to play in a loop (default: the clip of the demo)")
-    parser.add_argument("--rate", type=float, default=30.0, help="pictures per second (30)")
-    parser.add_argument("--seconds", type=float, default=60.0, help="how long to measure (60)")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON")
+    parser.add_argument("--rate", type=above_zero, default=30.0, help="pictures per second (30)")
+    parser.add_argument("--seconds", type=above_zero, default=60.0, help="how long to measure (60)")
+    report_options.add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
+    """0; raises UserError when a service does not get ready."""
+    report_options.check(arguments)
     where = layout.find()
     clip = arguments.clip or where.clips / "spread_01" / "left.mp4"
     if not clip.is_file():
@@ -51,8 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
               "pictures": services["camera_driver"]["pictures"], "rate_hz": arguments.rate,
               "seconds": arguments.seconds, "clip": clip.name}
     _print(result)
-    if arguments.json:
-        arguments.json.write_text(json.dumps(result, indent=2) + "\n")
+    report_options.write_json(arguments, result)
     return 0
 
 
@@ -73,16 +76,19 @@ class _Chain:
         self._facts: dict[str, dict[str, Any]] = {}
 
     def start_consumers(self) -> None:
+        """Returns when all of them have spoken."""
         for service in CONSUMERS:
             self._start(service)
         self._wait_for(CONSUMERS)
 
     def start_camera(self, clip: Path, rate_hz: float) -> None:
+        """Plays the clip in a loop; returns when the camera driver has spoken."""
         self._start("camera_driver", "source.kind=video", f"source.path={clip.resolve()}",
                     "source.loop=true", f"source.rate_hz={rate_hz}", "pace=by_time")
         self._wait_for(("camera_driver",))
 
     def measure(self, seconds: float) -> dict[str, dict[str, Any]]:
+        """The figures of each service over so many seconds; stops the camera."""
         before = {name: cpu_seconds(p.pid) for name, p in self._processes.items()}
         start = time.monotonic()
         self._listen(seconds)
@@ -98,6 +104,7 @@ class _Chain:
                 for name in self._processes}
 
     def stop(self) -> None:
+        """Ends all processes."""
         for name in list(self._processes):
             self._stop(name)
 

@@ -8,21 +8,23 @@ data. Objects are the true boxes, as in the paper.
 from __future__ import annotations
 
 import argparse
-import json
 import tempfile
 from pathlib import Path
 from typing import Any
 
 from deixis_frontend import layout
 from deixis_frontend.errors import UserError
-from deixis_frontend.evaluation import pointing_plots, pointing_program
-from deixis_frontend.evaluation.gesture_scores import Score, score_sequence, summarise
+from deixis_frontend.evaluation import pointing_plots, pointing_program, report_options
+from deixis_frontend.evaluation.gesture_scores import (
+    RecognisedGesture, Score, score_sequence, summarise)
 from deixis_frontend.evaluation.pointing_program import Column, Events, Job
-from deixis_frontend.evaluation.sequences import Sequence, Skipped, read_sequences
+from deixis_frontend.evaluation.sequences import (
+    SEQUENCE_FILES, Sequence, Skipped, read_sequences)
 from deixis_frontend.evaluation.tracked_recordings import write_tracked_recordings
 from deixis_frontend.evaluation.vr_pointing import (
     MILLISECONDS, Movement, is_vr_folder, write_vr_recordings)
-from deixis_frontend.training.recordings import write_recordings
+from deixis_frontend.number_options import positive_count
+from deixis_frontend.training.recordings import as_word, write_recordings
 
 _PRINTED = ("recogniser.method=as_printed", "recogniser.hands=acting")
 _KEY = "recogniser.as_printed"
@@ -40,28 +42,30 @@ _NEEDS_DEPTH = "pointing_"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Which sequences, which hands, how often, and where the figures go."""
     parser.add_argument("--data", type=Path, required=True, metavar="DIR",
                         help="folder of sequence folders, or of the VR motion capture")
     parser.add_argument("--only", metavar="GLOB", help="names of sequences to use")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON")
-    parser.add_argument("--plots", type=Path, metavar="DIR", help="write pictures of the figures")
+    report_options.add_json(parser)
+    report_options.add_plots(parser)
     parser.add_argument("--hands", choices=("true", "tracked", "both"), default="true",
                         help="true: labelled positions with 2.5 px noise, filtered; tracked: what the"
                              " shipped programs see in the video (default: true)")
-    parser.add_argument("--seeds", type=int, default=10, metavar="N", help="runs (default: 10)")
+    parser.add_argument("--seeds", type=positive_count, default=10, metavar="N", help="runs (default: 10)")
     parser.add_argument("--set", dest="settings", action="append", default=[], metavar="KEY=VALUE",
                         help="override a key of gesture_recogniser.yaml")
 
 
 def run(arguments: argparse.Namespace) -> int:
+    """0; raises UserError when there is nothing to measure."""
+    report_options.check(arguments)
     where = layout.find()
     with tempfile.TemporaryDirectory() as folder:
         if is_vr_folder(arguments.data):
             report = _evaluate_vr(where, arguments, Path(folder))
         else:
             report = _evaluate_sequences(where, arguments, Path(folder))
-    if arguments.json:
-        arguments.json.write_text(json.dumps(report, indent=2) + "\n")
+    report_options.write_json(arguments, report)
     if arguments.plots:
         pointing_plots.write(report, arguments.plots)
     return 0
@@ -74,7 +78,9 @@ def _evaluate_sequences(where: layout.Layout, arguments: argparse.Namespace,
         print(f"not used: {left_out.name} ({left_out.reason})")
     groups = _Groups(sequences)
     if not groups.main and not groups.free:
-        raise UserError(f"no sequences with gestures in {arguments.data}: nothing was measured")
+        raise UserError(f"no sequences with gestures in {arguments.data}: nothing was measured:"
+                        f" each is a folder with {', '.join(SEQUENCE_FILES)}; a clip without them is"
+                        " for `deixis demo --clip`")
     report: dict[str, Any] = {"sequences": [], "summary": {}, "skipped": [vars(s) for s in skipped]}
     kinds = ("true", "tracked") if arguments.hands == "both" else (arguments.hands,)
     for kind in kinds:
@@ -111,11 +117,11 @@ class _Evaluation:
         self._folder = folder
         self._groups = groups
         self._kind = kind
-        # Tracked hands come out the same every time; only the method as printed draws numbers.
         self._seeds = arguments.seeds
         self._settings = tuple(arguments.settings)
 
     def run(self) -> tuple[dict[str, Any], list[dict[str, Any]]]:
+        """The summary by column and group, and one row per sequence."""
         print(f"\nhands: {self._kind}")
         summary, rows = {}, []
         if self._groups.main:
@@ -184,10 +190,15 @@ class _Evaluation:
 
 def _score(sequences: list[Sequence], events: Events, column: str, seed: int) -> dict[str, Score]:
     return {
-        s.name: score_sequence(s.gestures, events[column][seed][s.name, s.name], s.fps, s.frames,
-                               names_objects=column != "none")
+        s.name: score_sequence(s.gestures, _events_of(s.name, events[column][seed]), s.fps,
+                               s.frames, names_objects=column != "none")
         for s in sequences
     }
+
+
+def _events_of(name: str, events: dict[tuple[str, str], list[RecognisedGesture]]
+               ) -> list[RecognisedGesture]:
+    return events.get((as_word(name), as_word(name)), [])
 
 
 def _total(scores: dict[str, Score]) -> Score:
@@ -243,6 +254,6 @@ def _evaluate_vr(where: layout.Layout, arguments: argparse.Namespace,
 def _vr_score(movements: list[Movement], events: Events, seed: int) -> Score:
     total = Score()
     for movement in movements:
-        found = events["default"][seed][movement.name, movement.name]
+        found = _events_of(movement.name, events["default"][seed])
         total.add(score_sequence([movement.gesture], found, MILLISECONDS, movement.duration_ms))
     return total

@@ -5,17 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from deixis_frontend.errors import UserError
-
 _ERRORS = ("insertions", "deletions", "substitutions")
 
 
 def write(report: dict[str, Any], folder: Path) -> None:
     """Errors per column, and recognition and word error rate per column, as PNG files."""
-    try:
-        import matplotlib
-    except ImportError:
-        raise UserError("--plots needs the Python module 'matplotlib': pip install matplotlib") from None
+    import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
 

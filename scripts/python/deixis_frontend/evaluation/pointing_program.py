@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import csv
 import io
-import os
-import subprocess
 from collections import defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from deixis_frontend import layout
-from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation.gesture_scores import RecognisedGesture
+from deixis_frontend.programs import run_program
 
 # column -> seed -> (recording, scene) -> events
 Events = dict[str, dict[int, dict[tuple[str, str], list[RecognisedGesture]]]]
@@ -26,6 +24,7 @@ class Column:
     settings: tuple[str, ...] = ()
 
     def argument(self) -> str:
+        """As deixis-evaluate-pointing takes it."""
         return f"{self.name}:{','.join(self.settings)}" if self.settings else self.name
 
 
@@ -44,7 +43,6 @@ class Job:
 def run(where: layout.Layout, job: Job) -> Events:
     """The events of all columns and seeds."""
     arguments = ["--recordings", str(job.recordings), "--seeds", str(job.seeds)]
-    arguments += ["--config", str(where.config_file("gesture_recogniser.yaml"))]
     if job.training:
         arguments += ["--training", str(job.training)]
     if job.scenes:
@@ -53,18 +51,7 @@ def run(where: layout.Layout, job: Job) -> Events:
         arguments += ["--column", column.argument()]
     for setting in job.settings:
         arguments += ["--set", setting]
-    return _parse(_call(where, "deixis-evaluate-pointing", *arguments))
-
-
-def _call(where: layout.Layout, program: str, *arguments: str) -> str:
-    environment = {**os.environ}
-    environment.setdefault("DEIXIS_CONFIG_DIR", str(where.config))
-    command = [str(where.program(program)), *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment)
-    if done.returncode != 0:
-        lines = done.stderr.strip().splitlines()
-        raise UserError(lines[-1] if lines else f"{program} failed with {done.returncode}")
-    return done.stdout
+    return _parse(run_program(where, "deixis-evaluate-pointing", *arguments))
 
 
 def _parse(text: str) -> Events:

@@ -1,8 +1,8 @@
 """Reads folders of recorded or rendered sequences that come with their truth.
 
 A sequence is a folder with sequence.csv (kind, fps, frames), person.csv, joints.csv, and, where there are
-any, objects.csv, gestures.csv, intrinsics.yml, extrinsics.yml and left.mp4. Positions are in the optical
-frame of the raw left camera (metres), pixels in its raw image.
+any, objects.csv, gestures.csv, intrinsics.yml and left.mp4. Positions are in the optical frame of the raw
+left camera (metres), pixels in its raw image.
 """
 
 from __future__ import annotations
@@ -15,6 +15,15 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+
+from deixis_frontend import csv_table
+from deixis_frontend.csv_table import Row
+
+# What the figures of gestures need.
+SEQUENCE_FILES = ("sequence.csv", "joints.csv", "objects.csv", "gestures.csv")
+_FRAME_COLUMNS = ("start_frame", "apex_frame", "end_frame", "retract_end_frame")
+_GESTURE_COLUMNS = (*_FRAME_COLUMNS, "hand", "object_id", "object_label")
+_OBJECT_COLUMNS = ("id", "label", "x", "y", "z", "u_min", "v_min", "u_max", "v_max")
 
 
 @dataclass(frozen=True)
@@ -55,51 +64,42 @@ class Sequence:
         self.folder = folder
         self.name = folder.name
         facts = _key_values(folder / "sequence.csv")
-        self.kind = facts.get("kind", "")
         self.fps = float(facts["fps"])
         self.frames = int(facts["frames"])
 
     @cached_property
     def person(self) -> dict[str, str]:
+        """What person.csv says of the person; empty where it is not there."""
         return _key_values(self.folder / "person.csv")
 
     @property
     def person_id(self) -> str:
+        """Tells people apart; empty where it is not known."""
         return self.person.get("id", "")
 
     @property
     def video(self) -> Path:
+        """Pictures of the left camera; the file need not be there."""
         return self.folder / "left.mp4"
 
     @cached_property
-    def times_s(self) -> np.ndarray:
-        return np.arange(self.frames) / self.fps
-
-    @cached_property
     def objects(self) -> list[SceneObject]:
+        """What can be pointed at; empty without objects.csv."""
         return [
             SceneObject(
-                int(row["id"]),
-                row["label"],
-                (float(row["x"]), float(row["y"]), float(row["z"])),
+                row.whole("id"),
+                row.text("label"),
+                (row.number("x"), row.number("y"), row.number("z")),
                 _box(row),
             )
-            for row in _rows(self.folder / "objects.csv")
+            for row in _table(self.folder / "objects.csv", _OBJECT_COLUMNS)
         ]
 
     @cached_property
     def gestures(self) -> list[LabelledGesture]:
+        """The labels in order; empty without gestures.csv."""
         return [
-            LabelledGesture(
-                int(row["start_frame"]),
-                int(row["apex_frame"]),
-                int(row["end_frame"]),
-                int(row["retract_end_frame"]),
-                row["hand"],
-                int(row["object_id"]),
-                row["object_label"],
-            )
-            for row in _rows(self.folder / "gestures.csv")
+            _gesture(row) for row in _table(self.folder / "gestures.csv", _GESTURE_COLUMNS)
         ]
 
     @cached_property
@@ -109,17 +109,13 @@ class Sequence:
 
     @cached_property
     def second_person_joints(self) -> dict[str, np.ndarray]:
+        """The same of a bystander; empty without joints_person2.csv."""
         return _joints(self.folder / "joints_person2.csv", self.frames)
 
     @cached_property
     def intrinsics(self) -> dict[str, np.ndarray]:
         """Matrices of intrinsics.yml (M1 D1 M2 D2) and its numbers (image_width, image_height)."""
         return read_opencv_yaml(self.folder / "intrinsics.yml")
-
-    @cached_property
-    def extrinsics(self) -> dict[str, np.ndarray]:
-        """Matrices of extrinsics.yml (R T R1 R2 P1 P2 Q)."""
-        return read_opencv_yaml(self.folder / "extrinsics.yml")
 
 
 def read_sequences(
@@ -175,8 +171,21 @@ def _key_values(path: Path) -> dict[str, str]:
     return {row["key"]: row["value"] for row in _rows(path)}
 
 
-def _box(row: dict[str, str]) -> tuple[float, float, float, float]:
-    left, top, right, bottom = (float(row[k]) for k in ("u_min", "v_min", "u_max", "v_max"))
+def _table(path: Path, columns: tuple[str, ...]) -> list[Row]:
+    return csv_table.read(path, columns) if path.exists() else []
+
+
+def _gesture(row: Row) -> LabelledGesture:
+    frames = [row.whole(name) for name in _FRAME_COLUMNS]
+    if not 0 <= frames[0] < frames[1] <= frames[2] <= frames[3]:
+        raise row.fault(f"{', '.join(_FRAME_COLUMNS)} are out of order")
+    return LabelledGesture(frames[0], frames[1], frames[2], frames[3],
+                           row.choice("hand", ("left", "right")), row.whole("object_id"),
+                           row.text("object_label"))
+
+
+def _box(row: Row) -> tuple[float, float, float, float]:
+    left, top, right, bottom = (row.number(k) for k in ("u_min", "v_min", "u_max", "v_max"))
     return (left, top, right - left, bottom - top)
 
 

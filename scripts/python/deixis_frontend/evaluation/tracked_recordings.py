@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-import subprocess
-import tempfile
 from collections import defaultdict
 from pathlib import Path
 from typing import Any, Iterable
 
 from deixis_frontend import layout
-from deixis_frontend.errors import UserError
+from deixis_frontend.evaluation.offline_chain import results_of_video
 from deixis_frontend.evaluation.sequences import Sequence
 from deixis_frontend.training.recordings import gesture_lines, header
 
@@ -21,11 +19,10 @@ def write_tracked_recordings(
     where: layout.Layout, sequences: Iterable[Sequence], folder: Path
 ) -> list[str]:
     """One file per sequence: tracked hands and detected faces, true object boxes. Returns remarks."""
-    where.use_types()
     folder.mkdir(parents=True, exist_ok=True)
     remarks = []
     for sequence in sequences:
-        hands, faces = _track(where, sequence)
+        hands, faces = _track(where, sequence.video)
         if not hands:
             remarks.append(f"{sequence.name}: the hand tracker published nothing")
             continue
@@ -35,32 +32,17 @@ def write_tracked_recordings(
     return remarks
 
 
-def _track(where: layout.Layout, sequence: Sequence) -> tuple[list[Any], dict[int, Any]]:
-    """Hand messages in order, and the face message of each capture time."""
-    from deixis_lcm import logs
-
-    with tempfile.TemporaryDirectory() as folder:
-        pictures, results = Path(folder) / "in.lcmlog", Path(folder) / "out.lcmlog"
-        _call(where, "deixis-camera-driver", "--set", "source.kind=video",
-              "--set", f"source.path={sequence.video.resolve()}",
-              "--set", "pace=as_fast_as_possible", "--lcm-url", f"file://{pictures}?mode=w")
-        _call(where, "deixis-offline", str(pictures), str(results),
-              "--services", "object_detector,hand_tracker", "--results-only")
-        hands: list[Any] = []
-        faces: dict[int, Any] = defaultdict(list)
-        for _, channel, message in logs.read(results, channels={"HAND_TRACKS", "OBJECTS"}):
-            if channel == "HAND_TRACKS":
-                hands.append(message)
-            else:
-                faces[message.utime] += [o for o in message.objects if o.kind == o.FACE and o.has_box]
+def _track(where: layout.Layout, video: Path) -> tuple[list[Any], dict[int, Any]]:
+    """Hand messages in order, and the faces of each capture time."""
+    hands: list[Any] = []
+    faces: dict[int, Any] = defaultdict(list)
+    for channel, message in results_of_video(where, video, ("object_detector", "hand_tracker"),
+                                             {"HAND_TRACKS", "OBJECTS"}):
+        if channel == "HAND_TRACKS":
+            hands.append(message)
+        else:
+            faces[message.utime] += [o for o in message.objects if o.kind == o.FACE and o.has_box]
     return hands, faces
-
-
-def _call(where: layout.Layout, program: str, *arguments: str) -> None:
-    done = subprocess.run([str(where.program(program)), *arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        lines = done.stderr.strip().splitlines()
-        raise UserError(f"{program} failed: {lines[-1] if lines else done.returncode}")
 
 
 def frame_lines(hands: list[Any], faces: dict[int, Any]) -> list[str]:

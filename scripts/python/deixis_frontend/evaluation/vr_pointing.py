@@ -37,6 +37,7 @@ class Movement:
 
 
 def is_vr_folder(data: Path) -> bool:
+    """True when `data` looks like that motion capture."""
     return (data / "targets.csv").exists() and (data / "participant_01.csv").exists()
 
 

@@ -10,11 +10,11 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from deixis_frontend.errors import UserError
 from deixis_frontend.layout import Layout
-from deixis_frontend.lcm_url import LcmUrl, require_multicast
+from deixis_frontend.lcm_url import LcmUrl, require_bus
 from deixis_frontend.supervision.guard import TOKEN_VARIABLE
 from deixis_frontend.supervision.run_folder import RunFolder
 from deixis_frontend.supervision.supervisor import log_folder
@@ -22,6 +22,7 @@ from deixis_frontend.supervision.system_file import System
 
 _APPEARS_WITHIN_S = 15.0
 _POLL_S = 0.02
+_ANSWERS_WITHIN_S = 10.0  # a supervisor that is well takes some milliseconds
 Line = dict[str, Any]
 
 
@@ -40,14 +41,24 @@ class Client:
     def command(self, command: str, names: list[str],
                 on_service: Callable[[Line], None] = lambda _: None) -> Line:
         """Has a command carried out; calls on_service with the facts of each service done."""
+        if command != "status":
+            self.command("status", [])  # A supervisor that hangs is told from one that works.
         with self._connect() as connection:
             request = {"command": command, "names": names}
             connection.sendall(json.dumps(request).encode() + b"\n")
+            if command != "status":
+                connection.settimeout(None)  # Services may take as long as their entries allow.
+            return self._answer(connection, on_service)
+
+    def _answer(self, connection: socket.socket, on_service: Callable[[Line], None]) -> Line:
+        try:
             for text in connection.makefile("r", encoding="utf-8"):
                 line = json.loads(text)
                 if line.get("done"):
                     return self._checked(line)
                 on_service(line)
+        except TimeoutError:
+            raise self._hangs() from None
         raise UserError("the supervisor ended in the middle of the command:"
                         f" see {self.log_file}, then `deixis start` again")
 
@@ -56,7 +67,7 @@ class Client:
         """Where the supervisor itself writes."""
         return log_folder(self._system, self._layout) / "supervisor.log"
 
-    def ensure_supervisor(self, url: LcmUrl, url_is_wanted: bool,
+    def ensure_supervisor(self, url: LcmUrl, *, url_is_wanted: bool,
                           while_pid: int | None = None) -> None:
         """Starts a supervisor on `url` unless there is one.
 
@@ -64,8 +75,9 @@ class Client:
         while_pid it ends when that process has ended.
         """
         if not (self.is_supervised() and self._appears()):
-            require_multicast(url)
+            require_bus(url)
             self._layout.use_types()
+            self._folder.create()
             self._spawn(url, ["--while-pid", str(while_pid)] if while_pid else [])
         self._check_same(url if url_is_wanted else None)
 
@@ -94,8 +106,7 @@ class Client:
         return False
 
     def _spawn(self, url: LcmUrl, options: list[str]) -> None:
-        self.log_file.parent.mkdir(parents=True, exist_ok=True)
-        with self.log_file.open("ab") as log:
+        with self._open_log() as log:
             begin = log.tell()
             daemon = subprocess.Popen(
                 [sys.executable, "-m", "deixis_frontend.supervision.daemon",
@@ -110,6 +121,20 @@ class Client:
         if not self._answers():
             raise UserError(f"the supervisor does not answer: see {self.log_file}")
 
+    def _open_log(self) -> BinaryIO:
+        try:
+            self.log_file.parent.mkdir(parents=True, exist_ok=True)
+            return self.log_file.open("ab")
+        except OSError as error:
+            raise UserError(f"{self.log_file} cannot be written ({error.strerror}): name another"
+                            f" folder under log.folder in {self._system.path}") from None
+
+    def _hangs(self) -> UserError:
+        pid = self._folder.holder()
+        return UserError(f"the supervisor of '{self._system.name}' (pid {pid}) has not answered for"
+                         f" {_ANSWERS_WITHIN_S:g} s: `kill -CONT {pid}` lets it go on if it was"
+                         f" stopped, `kill -KILL {pid}` ends it and its services")
+
     def _answers(self) -> bool:
         try:
             self._connect().close()
@@ -119,8 +144,12 @@ class Client:
 
     def _connect(self) -> socket.socket:
         connection = socket.socket(socket.AF_UNIX)
+        connection.settimeout(_ANSWERS_WITHIN_S)
         try:
             connection.connect(str(self._folder.socket))
+        except BlockingIOError:  # Others wait already, more than it has room for.
+            connection.close()
+            raise self._hangs() from None
         except OSError:
             connection.close()
             raise UserError(f"nothing runs of the system '{self._system.name}':"

@@ -22,7 +22,9 @@ class ControlServer:
         self._server: asyncio.Server | None = None
 
     async def serve(self, path: Path) -> None:
-        """Begins to listen."""
+        """Begins to listen; a second call takes the place of the first."""
+        if self._server:
+            self._server.close()
         self._server = await asyncio.start_unix_server(self._take, path)
 
     async def close(self) -> None:

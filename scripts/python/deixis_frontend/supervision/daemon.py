@@ -54,12 +54,14 @@ async def _run(system: System, layout: Layout, url: LcmUrl, folder: RunFolder,
     for number in (signal.SIGTERM, signal.SIGINT):
         loop.add_signal_handler(number, end.set)
     StatusListener(url, system.channel_prefix, layout, supervisor.hear).attach(loop)
-    helpers = [asyncio.create_task(_keep_guard(token)), asyncio.create_task(_sample(supervisor))]
-    if while_pid:
-        helpers.append(asyncio.create_task(_end_with(while_pid, end)))
     server = ControlServer(supervisor, end.set)
     await server.serve(folder.socket)
+    helpers = [asyncio.create_task(_keep_guard(token)), asyncio.create_task(_sample(supervisor)),
+               asyncio.create_task(_stay_reachable(folder, system, token, server, end))]
+    if while_pid:
+        helpers.append(asyncio.create_task(_end_with(while_pid, end)))
     await end.wait()
+    helpers[2].cancel()
     folder.hide()
     await supervisor.stop([], lambda _: None)
     await server.close()
@@ -81,6 +83,24 @@ async def _end_with(pid: int, end: asyncio.Event) -> None:
     while Path(f"/proc/{pid}").exists():
         await asyncio.sleep(_SAMPLE_EVERY_S)
     end.set()
+
+
+async def _stay_reachable(folder: RunFolder, system: System, token: str, server: ControlServer,
+                          end: asyncio.Event) -> None:
+    """Restores the run folder when somebody has deleted it; ends when another one has it then."""
+    while True:
+        await asyncio.sleep(_SAMPLE_EVERY_S)
+        try:
+            if folder.is_lost():
+                folder.lock_again(system.path, token)
+            if not folder.socket.exists():
+                await server.serve(folder.socket)
+                print(f"{folder.path} was deleted: made anew", file=sys.stderr, flush=True)
+        except (UserError, OSError) as error:
+            print(f"{folder.path} was deleted: everything is stopped: {error}", file=sys.stderr,
+                  flush=True)
+            end.set()
+            return
 
 
 async def _sample(supervisor: Supervisor) -> None:

@@ -11,6 +11,8 @@ from pathlib import Path
 
 from deixis_frontend.errors import UserError
 
+_LONGEST_SOCKET_PATH = 107  # bytes; see unix(7)
+
 
 class RunFolder:
     """One folder per system name and user.
@@ -27,11 +29,19 @@ class RunFolder:
         self.socket = self.path / "control"
         self._lock_file = self.path / "lock"
         self._locks: list[int] = []
+        if len(os.fsencode(self.socket)) > _LONGEST_SOCKET_PATH:
+            raise UserError(f"the path of the control socket is too long ({self.socket}):"
+                            " name a folder with a shorter path in DEIXIS_RUN_DIR")
 
     def create(self) -> None:
         """Makes the folder, for this user alone."""
         for folder in (self.path.parent, self.path):
-            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            try:
+                folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            except OSError as error:
+                raise UserError(f"the folder {folder} for locks and sockets cannot be made"
+                                f" ({error.strerror}): name another one in DEIXIS_RUN_DIR"
+                                ) from None
             facts = folder.lstat()
             if not stat.S_ISDIR(facts.st_mode) or facts.st_uid != os.getuid():
                 raise UserError(f"{folder} belongs to someone else: remove it, or name another"
@@ -58,16 +68,39 @@ class RunFolder:
         return left_behind
 
     def hide(self) -> None:
-        """Takes the socket away: no new commands."""
-        self.socket.unlink(missing_ok=True)
+        """Takes the socket away, if the system is ours: no new commands."""
+        if self._locks:
+            self.socket.unlink(missing_ok=True)
 
     def release(self) -> None:
         """Gives the system up, with nothing left behind."""
         self.hide()
-        os.ftruncate(self._locks[0], 0)
+        if self._locks:
+            os.ftruncate(self._locks[0], 0)
         for descriptor in self._locks:
             os.close(descriptor)
         self._locks = []
+
+    def is_lost(self) -> bool:
+        """True when the lock file that we hold is not, or no more, the one in the folder."""
+        try:
+            return not os.path.samestat(self._lock_file.stat(), os.fstat(self._locks[0]))
+        except OSError:
+            return True
+
+    def lock_again(self, system_file: Path, token: str) -> None:
+        """Claims the system anew when its folder is lost; raises UserError when another has it."""
+        lost, self._locks = self._locks, []
+        for descriptor in lost:
+            os.close(descriptor)
+        self.lock(system_file, token)
+
+    def holder(self) -> str:
+        """The process id of the supervisor; "?" when it is not known."""
+        try:
+            return self._facts()[0]
+        except (OSError, IndexError):
+            return "?"
 
     def is_locked(self) -> bool:
         """True while a supervisor lives."""

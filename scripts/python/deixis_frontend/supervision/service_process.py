@@ -9,6 +9,8 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+from deixis_frontend.programs import last_words
+
 _CHUNK_BYTES = 65536
 _TAIL_BYTES = 4096
 
@@ -37,8 +39,7 @@ class ServiceProcess:
     @property
     def last_error_line(self) -> str:
         """The last line with text that the program wrote to stderr."""
-        lines = [line.strip() for line in self._error_tail.decode(errors="replace").splitlines()]
-        return next((line for line in reversed(lines) if line), "")
+        return last_words(self._error_tail.decode(errors="replace"))
 
     def owns(self, pid: int) -> bool:
         """True when `pid` is the program or a child of it that stayed in its session."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import re
 import sys
-import time
 from collections.abc import Callable
 from typing import Any
 
@@ -30,7 +29,6 @@ class StatusListener:
         self._bus = open_bus(url)
         self._bus.subscribe(re.escape(prefix + CHANNEL), self._handle)
         self.refused = 0
-        self.last_heard = 0.0
 
     def attach(self, loop: asyncio.AbstractEventLoop) -> None:
         """Handles messages whenever the bus has some."""
@@ -48,7 +46,6 @@ class StatusListener:
             if self.refused == 1:
                 print(f"a message on {CHANNEL} does not decode: {error}", file=sys.stderr)
             return
-        self.last_heard = time.monotonic()
         self._on_status(message)
 
 

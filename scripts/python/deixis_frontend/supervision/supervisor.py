@@ -106,8 +106,8 @@ class Supervisor:
         return before, [self._services[other] for other in entry.needs]
 
     def _launch(self, entry: ServiceEntry) -> Launch:
-        environment = {"DEIXIS_CONFIG_DIR": str(self._layout.config), **os.environ,
-                       TOKEN_VARIABLE: self._token, "LCM_DEFAULT_URL": str(self._url)}
+        environment = {**self._layout.environment(), TOKEN_VARIABLE: self._token,
+                       "LCM_DEFAULT_URL": str(self._url)}
         return Launch(lambda: self._command(entry), environment, self._layout.state)
 
     def _command(self, entry: ServiceEntry) -> list[str]:
@@ -117,7 +117,8 @@ class Supervisor:
         if entry.instance:
             command += ["--instance", entry.instance]
         if entry.config:
-            command += ["--config", str(self._layout.config_file(entry.config))]
+            beside = self.system.path.parent
+            command += ["--config", str(self._layout.config_file(entry.config, beside))]
         for key, value in entry.settings.items():
             command += ["--set", f"{key}={value}"]
         return [*command, *entry.args]

@@ -30,11 +30,16 @@ def write_recordings(sequences: Iterable[Sequence], folder: Path) -> None:
 
 def header(name: str, person: str, objects: Iterable[SceneObject]) -> list[str]:
     """The lines that name a recording and its objects."""
-    lines = [f"recording {name} {person or 'unknown'}"]
+    lines = [f"recording {as_word(name)} {as_word(person) or 'unknown'}"]
     for thing in objects:
-        label = thing.label.replace(" ", "_") or "object"
+        label = as_word(thing.label) or "object"
         lines.append(f"object {thing.id} {label} " + " ".join(f"{v:.1f}" for v in thing.box_px))
     return lines
+
+
+def as_word(name: str) -> str:
+    """A name as it stands in a recording, whose lines are words: blanks become underscores."""
+    return "_".join(name.split())
 
 
 def acting_hand(sequence: Sequence, frame: int) -> str:

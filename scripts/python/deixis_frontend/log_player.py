@@ -1,0 +1,54 @@
+"""Publishes the messages of a log as they came."""
+
+from __future__ import annotations
+
+import re
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from deixis_lcm.log_events import Event, EventReader
+
+
+@dataclass
+class Played:
+    """What became of a log."""
+
+    published: int = 0
+    bytes: int = 0
+    other_channels: set[str] = field(default_factory=set)  # that were not asked for
+    damage: str = ""
+
+
+def play(log: Path, bus: Any, channels: re.Pattern[str], speed: float) -> Played:
+    """Publishes the messages on the channels at the distances in time of the log, by `speed`."""
+    played = Played()
+    with EventReader(log) as events:
+        clock: _Clock | None = None
+        for event in events:
+            if not channels.fullmatch(event.channel):
+                played.other_channels.add(event.channel)
+                continue
+            clock = clock or _Clock(event, speed)
+            clock.wait_for(event)
+            data = events.data(event)
+            bus.publish(event.channel, data)
+            played.published += 1
+            played.bytes += len(data)
+        played.damage = events.damage()
+    return played
+
+
+class _Clock:
+    """Turns times of the log into those of playing."""
+
+    def __init__(self, first: Event, speed: float) -> None:
+        self._first_us = first.time_us
+        self._began = time.monotonic()
+        self._speed = speed
+
+    def wait_for(self, event: Event) -> None:
+        """Returns when it is the event's turn; at once when its time lies before."""
+        due = self._began + (event.time_us - self._first_us) / 1e6 / self._speed
+        time.sleep(max(0.0, due - time.monotonic()))

@@ -1,0 +1,86 @@
+"""Files that a command writes: looked at before the work, written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+from deixis_frontend.errors import UserError
+
+
+def require_file(path: Path, option: str) -> None:
+    """Raises UserError when no file can be written at `path`; makes the folder that it lies in."""
+    if path.is_dir():
+        raise UserError(f"{option} {path} is a folder: name a file")
+    _require_writable(path.parent, path, option)
+
+
+def require_folder(path: Path, option: str) -> None:
+    """Raises UserError when `path` cannot be a folder to write to; makes it."""
+    if path.exists() and not path.is_dir():
+        raise UserError(f"{option} {path} is no folder: name one, or a new one")
+    _require_writable(path, path, option)
+
+
+def write_text(path: Path, text: str, option: str) -> None:
+    """Writes a file; raises UserError when that fails."""
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise _refusal(path, option, error) from None
+
+
+class UnfinishedFile:
+    """A file that gets its name when it is complete; till then it is <name>.<pid>.part beside it.
+
+    A context manager: at its end what was not kept is taken away.
+    """
+
+    def __init__(self, target: Path, option: str, *, may_replace: bool) -> None:
+        """Makes the file; raises UserError when that fails or `target` must not be replaced."""
+        self.target = target
+        final = target.resolve()
+        if os.path.lexists(final) and not final.is_file():
+            raise UserError(f"{option} {target} is no regular file: name another one")
+        if final.exists() and not may_replace:
+            raise UserError(f"{target} is there already: name another {option}, or give --force")
+        self._final = final
+        self.path = final.with_name(f"{final.name}.{os.getpid()}.part")
+        try:
+            self.path.open("wb").close()
+        except OSError as error:
+            raise _refusal(target, option, error) from None
+
+    @property
+    def size(self) -> int:
+        """Bytes so far."""
+        return self.path.stat().st_size
+
+    def __enter__(self) -> UnfinishedFile:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.discard()
+
+    def keep(self) -> None:
+        """Gives the file its name, in the place of one that has it."""
+        self.path.replace(self._final)
+
+    def discard(self) -> None:
+        """Takes the file away unless it was kept."""
+        self.path.unlink(missing_ok=True)
+
+
+def _require_writable(folder: Path, path: Path, option: str) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        # By trying: what the mode bits say holds neither for root nor for /proc.
+        with tempfile.TemporaryFile(dir=folder):
+            return
+    except OSError as error:
+        raise _refusal(path, option, error) from None
+
+
+def _refusal(path: Path, option: str, error: OSError) -> UserError:
+    return UserError(f"{path} cannot be written: {error.strerror}: name another {option}")

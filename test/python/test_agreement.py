@@ -1,0 +1,28 @@
+"""What has to stand in several places says the same in all of them."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+from deixis_frontend import __version__, lcm_url
+
+
+def found(path: Path, pattern: str) -> str:
+    """The first group of the only match in a file."""
+    [match] = re.findall(pattern, path.read_text(encoding="utf-8"))
+    return match
+
+
+def test_the_front_end_has_the_version_of_the_project(repository: Path) -> None:
+    assert found(repository / "CMakeLists.txt", r"project\(deixis VERSION (\S+)") == __version__
+
+
+def test_all_ask_for_the_same_receive_buffer_and_the_kernel_is_set_to_allow_it(
+        repository: Path) -> None:
+    asked = found(repository / "common/transport/bus.h", r"int receive_buffer_bytes = ([\d *]+);")
+    assert math.prod(map(int, asked.split("*"))) == lcm_url.RECEIVE_BUFFER_BYTES
+    limits = (found(repository / "scripts/setup", r"\nreceive_buffer_bytes=(\d+)"),
+              found(repository / "common/transport/bus.cpp", r"net\.core\.rmem_max=(\d+)"))
+    assert [int(limit) for limit in limits] == [lcm_url.RECEIVE_BUFFER_BYTES] * 2

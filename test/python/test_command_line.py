@@ -1,0 +1,83 @@
+"""What is wrong on the command line is told at once, in one line, before any work."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from bench import heed_interrupts
+
+from deixis_frontend.cli import main
+
+
+@pytest.mark.parametrize("arguments", [
+    "record --seconds nan", "record --seconds -1", "record --seconds 0", "demo --seconds nan",
+    "demo --seconds -1", "demo --seconds 0", "replay x --speed inf", "replay x --speed 0",
+    "replay x --channels (", "log -n -5", "log -n many", "evaluate pointing --data x --seeds 0",
+    "evaluate pointing --data x --seeds -1", "evaluate live --rate 0",
+    "evaluate live --seconds inf",
+    "train-gestures --data x --output y --noise-px -1",
+    "train-gestures --data x --output y --noise-px nan",
+])
+def test_numbers_that_make_no_sense_are_wrong_usage(arguments: str,
+                                                    capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(arguments.split())
+    assert end.value.code == 2
+    assert "argument --" in capsys.readouterr().err.replace("-n/", "")
+
+
+@pytest.mark.parametrize("arguments", [
+    ["evaluate", "pointing", "--data", "x"], ["evaluate", "hands", "--data", "x"],
+    ["evaluate", "events", "--data", "x"], ["evaluate", "live"]])
+@pytest.mark.parametrize(("target", "fault"), [
+    (".", "is a folder: name a file"), ("/proc/x.json", "cannot be written"),
+    ("/dev/null/x.json", "cannot be written")])
+def test_figures_that_cannot_be_written_are_refused_before_the_run(
+        arguments: list[str], target: str, fault: str, tmp_path: Path,
+        monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main([*arguments, "--json", target]) == 1
+    [line] = capsys.readouterr().err.splitlines()
+    assert line.startswith("deixis: ") and fault in line and "--json" in line
+
+
+@pytest.mark.parametrize("part", ["pointing", "hands"])
+def test_pictures_need_a_folder(part: str, tmp_path: Path,
+                                capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "file").touch()
+    assert main(["evaluate", part, "--data", "x", "--plots", str(tmp_path / "file")]) == 1
+    assert "--plots" in (said := capsys.readouterr().err) and "is no folder" in said
+
+
+def test_a_clip_without_truth_says_what_it_lacks(repository: Path,
+                                                 capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["evaluate", "pointing", "--data", str(repository / "test/data/clips")]) == 1
+    said = capsys.readouterr()
+    assert "spread_01 (has no sequence.csv, joints.csv)" in said.out
+    assert "deixis demo --clip" in said.err
+
+
+def test_the_demo_needs_a_folder_for_its_output(tmp_path: Path,
+                                                capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "file").touch()
+    for output in (str(tmp_path / "file"), "/proc/x"):
+        assert main(["demo", "--output", output]) == 1
+        [line] = capsys.readouterr().err.splitlines()
+        assert output in line and "--output" in line
+
+
+def test_an_early_interrupt_ends_without_a_word(tmp_path: Path) -> None:
+    """The interrupt comes from within, while the command line is being loaded."""
+    (tmp_path / "argparse.py").write_text(
+        "import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(30)\n",
+        encoding="ascii")
+    path = os.pathsep.join([str(tmp_path), *sys.path])
+    done = subprocess.run([sys.executable, "-m", "deixis_frontend", "--version"], text=True,
+                          env={**os.environ, "PYTHONPATH": path}, capture_output=True, timeout=20,
+                          check=False, preexec_fn=heed_interrupts)
+    assert (done.returncode, done.stdout, done.stderr) == (128 + signal.SIGINT, "", "")
