@@ -41,6 +41,8 @@ void HandMotionConfig::Validate() const {
   require(jump_spread, "jump_spread");
   require(jump_speed, "jump_speed");
   require(jump_largest, "jump_largest");
+  require(fastest, "fastest");
+  require(largest_error, "largest_error");
   require(speed_time_s, "speed_time_s");
   require(area, "area");
   faults.Require(jump_share > 0.0 && jump_share < 1.0, "jump_share", "must lie between 0 and 1");

@@ -16,6 +16,8 @@ struct HandMotionConfig {
   double jump_speed = 13.0;    ///< ... per second ...
   double jump_largest = 3.0;   ///< ... and at most.
   double jump_share = 0.05;    ///< Share of fast motions of that kind.
+  double fastest = 18.0;       ///< No hand is faster, per second: about 3.5 m/s.
+  double largest_error = 0.5;  ///< What it may be farther away all the same.
   double speed_time_s = 0.3;   ///< In which the speed of a hand that is not seen dies away.
   double area = 40.0;          ///< In which hands and what looks like them are found.
 
@@ -31,6 +33,8 @@ struct HandMotionConfig {
     v("jump_speed", jump_speed);
     v("jump_largest", jump_largest);
     v("jump_share", jump_share);
+    v("fastest", fastest);
+    v("largest_error", largest_error);
     v("speed_time_s", speed_time_s);
     v("area", area);
   }

@@ -89,6 +89,12 @@ bool MayBeStill(const HandPathsConfig& config, const HandGuess& from, const Hand
   return from.still_s <= config.still_time_s && distance < kNear * to.hand_length_px;
 }
 
+/// Whether no hand could have come so far.
+bool IsTooFar(const HandMotionConfig& config, const LastSight& last, const HandGuess& to) {
+  const double distance = (to.sight.position - last.position).norm() / to.hand_length_px;
+  return distance > config.largest_error + config.fastest * last.elapsed_s;
+}
+
 /// What a hand that was at one guess brings to the next: its speed, and how long it has been still.
 void Arrive(const HandGuess& from, double elapsed_s, HandGuess& to) {
   const double time_s = from.sight.elapsed_s + elapsed_s;
@@ -269,6 +275,7 @@ double HandPaths::LogStep(const HandGuess& from, const HandGuess& to, double ela
   if (!to.sways && !MayBeStill(config_, from, to)) return kImpossible;
   LastSight sight = from.sight;
   sight.elapsed_s += elapsed_s;
+  if (IsTooFar(config_.motion, sight, to)) return kImpossible;
   const NextPlace place = JudgeNextPlace(config_.motion, sight, to.sight.position,
                                          images_ * kImage_s, to.hand_length_px);
   return moves ? place.moving : place.resting;

@@ -22,11 +22,11 @@ struct HandPathsConfig {
   double face_unseen_rate = 2.3;  ///< ... and before the own face, where it cannot be.
   double forget_time_s = 1.5;     ///< Unseen this long: given up.
   double moving_share =
-      0.45;                   ///< Of its pixels must change of late for a hand to move a little ...
-  double still_time_s = 6.0;  ///< ... and what did not for so long is none: people sway.
-  double side_rate = 4.5;     ///< Cost of the other arm's side, nats/(s * hand length).
-  double reach = 3.6;         ///< Of an arm from its shoulder, hand lengths ...
-  double reach_rate = 30.0;   ///< ... and the cost beyond it, nats/(s * hand length).
+      0.45;  ///< Of its pixels must change of late for a hand to move a little ...
+  double still_time_s = 10.0;  ///< ... and what did not for so long is none: people sway.
+  double side_rate = 4.5;      ///< Cost of the other arm's side, nats/(s * hand length).
+  double reach = 3.6;          ///< Of an arm from its shoulder, hand lengths ...
+  double reach_rate = 30.0;    ///< ... and the cost beyond it, nats/(s * hand length).
   double twin_distance = 0.4;  ///< Two hands closer than this are one, hand lengths ...
   double twin_cost = 6.0;      ///< ... or cost this, nats.
   double lump_cost = 4.5;      ///< Of both hands in one lump, nats; they must have met there.

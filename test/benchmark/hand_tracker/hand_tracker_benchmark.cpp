@@ -1,11 +1,14 @@
 // Skin classification, regions and the whole tracker, with OpenCV's way of the same beside each in
-// the same run. Argument: width of a 4:3 picture.
+// the same run. Argument: width of a 4:3 picture. Paths of hands, with the plain recursion over
+// pairs of guesses beside them. Argument: candidates per image.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "common/skin/skin_model.h"
+#include "services/hand_tracker/core/hand_paths.h"
 #include "services/hand_tracker/core/hand_tracker.h"
 #include "services/hand_tracker/core/skin_regions.h"
 #include "test/services/hand_tracker/core/synthetic_person.h"
@@ -111,6 +114,51 @@ void TrackFrame(benchmark::State& state) {
   }
 }
 BENCHMARK(TrackFrame)->Arg(320)->Arg(640)->Arg(1280)->Unit(benchmark::kMillisecond);
+
+/// Two hands that sway and other things that do not.
+std::vector<HandCandidate> CandidatesOf(const benchmark::State& state) {
+  std::vector<HandCandidate> candidates;
+  for (int i = 0; i < state.range(0); ++i) {
+    HandCandidate& candidate = candidates.emplace_back();
+    candidate.centre = {100.0 + 37.0 * i, 200.0 + 11.0 * (i % 5)};
+    candidate.box = {candidate.centre.x() - 10.0, candidate.centre.y() - 10.0, 20.0, 20.0};
+    candidate.hand_length_px = 40.0;
+    candidate.area_px = 400.0;
+    candidate.region_length_px = 40.0;
+    candidate.moving_share = i < 2 ? 1.0 : 0.1;
+  }
+  return candidates;
+}
+
+void PathsByHalfSteps(benchmark::State& state) {
+  const std::vector<HandCandidate> candidates = CandidatesOf(state);
+  HandPaths paths{HandPathsConfig{}};
+  for (auto _ : state) {
+    paths.Update(candidates, nullptr, 1.0 / 15.0);
+    benchmark::DoNotOptimize(paths.hands().data());
+  }
+}
+BENCHMARK(PathsByHalfSteps)->Arg(4)->Arg(8)->Arg(16);
+
+/// Only the recursion, over as many guesses: every pair from every pair.
+void PathsByPairSteps(benchmark::State& state) {
+  const auto n = 2 * static_cast<std::size_t>(state.range(0)) + 7;
+  const std::vector<double> steps(n * n, -1.0);
+  std::vector<double> scores(n * n, 0.0);
+  std::vector<double> next(n * n);
+  for (auto _ : state) {
+    for (std::size_t to = 0; to < n * n; ++to) {
+      double best = -1e9;
+      for (std::size_t from = 0; from < n * n; ++from) {
+        const double step = steps[from / n * n + to / n] + steps[from % n * n + to % n];
+        best = std::max(best, scores[from] + step);
+      }
+      next[to] = best;
+    }
+    benchmark::DoNotOptimize(next.data());
+  }
+}
+BENCHMARK(PathsByPairSteps)->Arg(4)->Arg(8)->Arg(16);
 
 }  // namespace
 }  // namespace deixis::hand_tracker

@@ -89,7 +89,7 @@ TEST_F(HandPathsTest, GivesUpAThingThatStoodStillForLong) {
   for (int i = 0; i < 75; ++i)
     See({At(150.0, 260.0, Motion::kKeepsStill), At(250.0, 260.0, Motion::kSways)});
   EXPECT_TRUE(IsSeenAt(right(), 150.0, 260.0)) << "a hand may rest for a while";
-  for (int i = 0; i < 90; ++i) {
+  for (int i = 0; i < 150; ++i) {
     See({At(150.0, 260.0, Motion::kKeepsStill), At(250.0, 260.0, Motion::kSways)});
   }
   EXPECT_EQ(right().kind, HandGuess::Kind::kAbsent);
@@ -112,6 +112,16 @@ TEST_F(HandPathsTest, FollowsAFastHandRatherThanWhatItUncovered) {
   }
   EXPECT_TRUE(IsSeenAt(right(), 50.0, 150.0));
   EXPECT_TRUE(IsSeenAt(left(), 250.0, 260.0));
+}
+
+TEST_F(HandPathsTest, LeavesNoHandThatIsSeenForSomethingThatPassesFarAway) {
+  Settle();
+  for (int i = 0; i < 3; ++i) {
+    std::vector<HandCandidate> seen = Hanging();
+    seen.push_back(At(40.0 + 8.0 * i, 60.0, Motion::kMoves));
+    See(seen);
+    EXPECT_TRUE(IsSeenAt(right(), 150.0, 260.0)) << i;
+  }
 }
 
 TEST_F(HandPathsTest, FindsAHandThatWasUnseenInMidStroke) {
