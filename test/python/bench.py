@@ -120,8 +120,9 @@ class Bench:
 
 
 def heed_interrupts() -> None:
-    """A run in the background ignores SIGINT, and hands that down."""
+    """A run in the background ignores SIGINT, one under nohup SIGHUP, and both hand that down."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def becomes_true(condition: Callable[[], bool], seconds: float = 10.0) -> bool:

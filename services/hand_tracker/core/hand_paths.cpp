@@ -106,8 +106,6 @@ void Arrive(const HandGuess& from, double elapsed_s, HandGuess& to) {
 }  // namespace
 
 void HandPathsConfig::Validate() const {
-  likelihood.Validate();
-  motion.Validate();
   config::Faults faults;
   const auto require = [&faults](double value, const char* key) {
     faults.Require(value >= 0.0, key, "must not be negative");
@@ -149,8 +147,6 @@ void HandPaths::Update(const std::vector<HandCandidate>& candidates, const Perso
   Settle(elapsed_s);
   Choose();
 }
-
-bool HandPaths::IsEmpty() const { return sides_[0].last.size() <= 1 && sides_[1].last.size() <= 1; }
 
 void HandPaths::JudgeCandidates(const std::vector<HandCandidate>& candidates) {
   looks_.clear();

@@ -87,8 +87,6 @@ class HandPaths {
 
   /// The likeliest pair: the right hand and the left one, as far as shoulders are known.
   const std::array<HandGuess, 2>& hands() const { return hands_; }
-  /// Whether either hand may be anywhere.
-  bool IsEmpty() const;
 
  private:
   using Guesses = std::vector<HandGuess>;

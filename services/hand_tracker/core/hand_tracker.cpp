@@ -68,10 +68,6 @@ cv::Mat ChangeBetween(const cv::Mat& earlier, const cv::Mat& later) {
 }  // namespace
 
 void HandTrackerConfig::Validate() const {
-  skin.Validate();
-  background.Validate();
-  tracks.Validate();
-  roles.Validate();
   config::Faults faults;
   faults.Require(working_width_px >= 80, "working_width_px", "must be at least 80");
   faults.Require(low_threshold > 0 && low_threshold < 256, "low_threshold", "must lie in 1..255");

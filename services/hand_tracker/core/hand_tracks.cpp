@@ -37,8 +37,6 @@ std::vector<HandCandidate> CandidatesOf(const Observation& observation, int pers
 }  // namespace
 
 void HandTracksConfig::Validate() const {
-  track.Validate();
-  paths.Validate();
   config::Faults faults;
   faults.Require(reach > 0.0, "reach", "must be positive");
   faults.ThrowIfAny();
