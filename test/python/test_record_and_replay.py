@@ -39,9 +39,11 @@ def talking(url: str) -> Iterator[None]:
 
     thread = threading.Thread(target=talk)
     thread.start()
-    yield
-    over.set()
-    thread.join()
+    try:
+        yield
+    finally:
+        over.set()
+        thread.join()
 
 
 @contextmanager
