@@ -212,9 +212,18 @@ const YamlDocument::Override* YamlDocument::OverrideOf(const std::string& key) c
   return last == overrides_.rend() ? nullptr : &*last;
 }
 
+const YamlDocument::Override* YamlDocument::OverrideBelow(const std::string& key) const {
+  const auto last =
+      std::find_if(overrides_.rbegin(), overrides_.rend(),
+                   [&key](const Override& override) { return IsWithin(override.key, key); });
+  return last == overrides_.rend() ? nullptr : &*last;
+}
+
 std::string YamlDocument::PlaceOf(const std::string& key, const YAML::Mark& mark) const {
-  if (const Override* override = OverrideOf(key)) return "override '" + override->assignment + "'";
-  return Place(file_, mark);
+  const Override* override = OverrideOf(key);
+  // What no line of the file says comes from an override of something below.
+  if (override == nullptr && mark.is_null()) override = OverrideBelow(key);
+  return override == nullptr ? Place(file_, mark) : "override '" + override->assignment + "'";
 }
 
 const std::string* YamlDocument::OverridingText(const std::string& key) const {

@@ -34,6 +34,7 @@ class YamlDocument {
     std::string fault;  ///< Why it is no YAML; then it can be a text only.
   };
   const Override* OverrideOf(const std::string& key) const;
+  const Override* OverrideBelow(const std::string& key) const;
   YAML::Node ValueOf(Override& override) const;
   void Apply(const std::string& assignment);
 

@@ -22,6 +22,15 @@ void RequireDifferentFiles(const offline::Arguments& arguments) {
   }
 }
 
+// A log in which nothing was for these services leaves nothing behind.
+void RemoveIfEmpty(const std::string& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(file, ignored) &&
+      std::filesystem::file_size(file, ignored) == 0) {
+    std::filesystem::remove(file, ignored);
+  }
+}
+
 // One line every two seconds while a long log is worked on.
 class Progress {
  public:
@@ -50,7 +59,13 @@ void Run(const offline::Arguments& arguments) {
   deixis::transport::Bus output(output_options);
   const auto content = arguments.results_only ? offline::OutputContent::kResultsOnly
                                               : offline::OutputContent::kEverything;
-  offline::Report(host.Run(input, output, content, Progress{}), arguments.input);
+  const auto summary = host.Run(input, output, content, Progress{});
+  try {
+    offline::Report(summary, arguments.input);
+  } catch (const std::exception&) {
+    RemoveIfEmpty(arguments.output);
+    throw;
+  }
 }
 
 }  // namespace

@@ -31,6 +31,24 @@ def test_numbers_that_make_no_sense_are_wrong_usage(arguments: str,
     assert "argument --" in capsys.readouterr().err.replace("-n/", "")
 
 
+def test_recording_needs_expressions_that_are_some(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["record", "("])
+    assert end.value.code == 2
+    assert "'(' is no regular expression" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("arguments", [
+    ["train-hands", "--data", ".", "--output"], ["evaluate", "hands", "--data", ".", "--json"],
+    ["demo", "--no-build", "--output"], ["record", "--output"]])
+def test_a_name_that_no_file_can_have_is_refused(arguments: list[str], tmp_path: Path,
+                                                 monkeypatch: pytest.MonkeyPatch,
+                                                 capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main([*arguments, "x" * 300]) == 1
+    assert "File name too long" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("arguments", [
     ["evaluate", "pointing", "--data", "x"], ["evaluate", "hands", "--data", "x"],
     ["evaluate", "events", "--data", "x"], ["evaluate", "live"]])

@@ -47,10 +47,10 @@ def test_all_types_are_known():
     (lambda data: data[:-1], "does not decode"),
     (lambda data: data + b"x", "ends after"),
 ])
-def test_a_message_that_does_not_decode_is_named(tmp_path, break_it, message):
+def test_a_message_that_does_not_decode_is_named_in_the_end(tmp_path, break_it, message):
     path = write(tmp_path / "a.lcmlog", (5, "GESTURES", break_it(gesture().encode())))
-    with pytest.raises(ValueError, match=f"GESTURES at 5 us: deixis.gesture_t.*{message}"):
-        list(logs.read(path))
+    with pytest.warns(UserWarning, match=f"GESTURES at 5 us: deixis.gesture_t.*{message}"):
+        assert not list(logs.read(path))
 
 
 def test_a_missing_log_is_named(tmp_path):
@@ -72,6 +72,16 @@ def test_reading_goes_on_behind_noise(tmp_path):
     path.write_bytes(data[:3 * size] + bytes(5000) + data[5 * size:])
     with pytest.warns(UserWarning, match="8 messages were read; 5000 bytes are damaged"):
         assert numbers(path) == [0, 1, 2, 5, 6, 7, 8, 9]
+
+
+def test_a_message_that_does_not_decode_is_passed_over(tmp_path):
+    path = ten_gestures(tmp_path / "a.lcmlog")
+    data, size = bytearray(path.read_bytes()), path.stat().st_size // 10
+    inside = data.index(b"GESTURES", 3 * size) + len("GESTURES")
+    data[inside + 8:4 * size] = b"\xff" * (4 * size - inside - 8)
+    path.write_bytes(data)
+    with pytest.warns(UserWarning, match="1 messages do not decode, the last: GESTURES at 3 us"):
+        assert numbers(path) == [0, 1, 2, 4, 5, 6, 7, 8, 9]
 
 
 def test_a_damaged_length_does_not_swallow_what_follows(tmp_path):

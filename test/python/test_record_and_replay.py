@@ -227,6 +227,15 @@ def test_replay_goes_on_behind_damage(url: str, log: Path) -> None:
     assert "published 17 messages" in result.stdout
 
 
+def test_replay_does_not_wait_for_a_clock_that_jumped(url: str, log: Path) -> None:
+    data = log.read_bytes()
+    far = data[:12] + (2**62).to_bytes(8, "big") + data[20:30]
+    log.write_bytes(far + data)
+    result = deixis(url, "replay", log)
+    assert result.returncode == 0, result.stderr
+    assert "published 21 messages" in result.stdout
+
+
 @pytest.mark.parametrize("command", ["replay", "run-offline"])
 @pytest.mark.parametrize(("content", "fault"), [
     (None, "No such file or directory"), (b"", "is empty"), (b"hello world", "is no LCM log")])

@@ -40,15 +40,23 @@ def play(log: Path, bus: Any, channels: re.Pattern[str], speed: float) -> Played
     return played
 
 
+_LONGEST_GAP_S = 3600.0  # a longer one is a jump of the clock that stamped the log
+
+
 class _Clock:
     """Turns times of the log into those of playing."""
 
     def __init__(self, first: Event, speed: float) -> None:
-        self._first_us = first.time_us
+        self._first_us = self._last_us = first.time_us
         self._began = time.monotonic()
         self._speed = speed
 
     def wait_for(self, event: Event) -> None:
-        """Returns when it is the event's turn; at once when its time lies before."""
+        """Returns when it is the event's turn; at once where the log's time jumps, back or far ahead."""
+        since_s = (event.time_us - self._last_us) / 1e6
+        self._last_us = event.time_us
+        if not 0.0 <= since_s <= _LONGEST_GAP_S:
+            self._first_us, self._began = event.time_us, time.monotonic()
         due = self._began + (event.time_us - self._first_us) / 1e6 / self._speed
-        time.sleep(max(0.0, due - time.monotonic()))
+        while (left := due - time.monotonic()) > 0.0:
+            time.sleep(min(left, _LONGEST_GAP_S))

@@ -11,14 +11,14 @@ from deixis_frontend.errors import UserError
 
 def require_file(path: Path, option: str) -> None:
     """Raises UserError when no file can be written at `path`; makes the folder that it lies in."""
-    if path.is_dir():
+    if _exists(path, option) and path.is_dir():
         raise UserError(f"{option} {path} is a folder: name a file")
     _require_writable(path.parent, path, option)
 
 
 def require_folder(path: Path, option: str) -> None:
     """Raises UserError when `path` cannot be a folder to write to; makes it."""
-    if path.exists() and not path.is_dir():
+    if _exists(path, option) and not path.is_dir():
         raise UserError(f"{option} {path} is no folder: name one, or a new one")
     _require_writable(path, path, option)
 
@@ -41,9 +41,10 @@ class UnfinishedFile:
         """Makes the file; raises UserError when that fails or `target` must not be replaced."""
         self.target = target
         final = target.resolve()
-        if os.path.lexists(final) and not final.is_file():
+        is_there = _exists(target, option)
+        if is_there and not final.is_file():
             raise UserError(f"{option} {target} is no regular file: name another one")
-        if final.exists() and not may_replace:
+        if is_there and not may_replace:
             raise UserError(f"{target} is there already: name another {option}, or give --force")
         self._final = final
         self.path = final.with_name(f"{final.name}.{os.getpid()}.part")
@@ -70,6 +71,14 @@ class UnfinishedFile:
     def discard(self) -> None:
         """Takes the file away unless it was kept."""
         self.path.unlink(missing_ok=True)
+
+
+def _exists(path: Path, option: str) -> bool:
+    """Whether there is anything of that name; raises UserError when there can be nothing."""
+    try:
+        return path.resolve().exists()
+    except OSError as error:
+        raise _refusal(path, option, error) from None
 
 
 def _require_writable(folder: Path, path: Path, option: str) -> None:

@@ -51,30 +51,33 @@ def read(path, channels=None):
     """Yields (log_time_us, channel, message) of a log in the order of the file.
 
     `log_time_us` is when the logger received the message, microseconds; the capture time is in the message.
-    `channels` is a set of names, None for all. FileNotFoundError if there is no such file, ValueError if it is no log,
-    or (with channel and time) if a message of a known type does not decode. Damaged parts are passed over with a
-    warning (UserWarning) at the end.
+    `channels` is a set of names, None for all. FileNotFoundError if there is no such file, ValueError if it is no log.
+    Damaged parts, and messages of a known type that do not decode, are passed over with a warning (UserWarning) at
+    the end.
     """
     if not os.path.isfile(path):
         raise FileNotFoundError(f"no log file {path}")
     types = types_by_fingerprint()
-    count = 0
+    count = undecodable = 0
+    reason = ""
     with EventReader(path) as events:
         for event in events:
             count += 1
-            if channels is None or event.channel in channels:
-                yield event.time_us, event.channel, _message(path, event, events.data(event), types)
+            if channels is not None and event.channel not in channels:
+                continue
+            try:
+                message = decode(events.data(event), types)
+            except ValueError as error:
+                undecodable += 1
+                reason = f"{event.channel} at {event.time_us} us: {error}"
+                continue
+            yield event.time_us, event.channel, message
         if count == 0 and events.damaged_bytes:
             raise ValueError(f"{path} is no LCM log: no event begins in it")
+        if undecodable:
+            warnings.warn(f"{path}: {undecodable} messages do not decode, the last: {reason}", stacklevel=2)
         if events.damage():
             warnings.warn(f"{path}: {count} messages were read; {events.damage()}", stacklevel=2)
-
-
-def _message(path, event, data, types):
-    try:
-        return decode(data, types)
-    except ValueError as error:
-        raise ValueError(f"{path}: {event.channel} at {event.time_us} us: {error}") from None
 
 
 class Writer:

@@ -92,6 +92,10 @@ Recording ReadRecording(const std::filesystem::path& file) {
 }
 
 std::vector<Recording> ReadRecordings(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) {
+    throw config::ConfigError("'" + folder.string() +
+                              "' is no folder; name one with *.recording files");
+  }
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() == ".recording") files.push_back(entry.path());

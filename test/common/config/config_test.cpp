@@ -196,6 +196,8 @@ TEST_F(Config, BlamesTheOverrideNotTheFile) {
             "override 'values.0=1': 'values' is not a mapping");
   EXPECT_THAT(FaultOf("count: 1\n", {"count=[1"}),
               HasSubstr("override 'count=[1': the value is not valid YAML"));
+  EXPECT_THAT(FaultOf("count: 1\n", {"inner.count=1"}),
+              HasSubstr("override 'inner.count=1': key 'inner' is not known"));
 }
 
 TEST_F(Config, BlamesTheOverrideForAValueThatMakesNoSense) {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import signal
 import subprocess
 import sys
@@ -11,6 +12,7 @@ from pathlib import Path
 
 from deixis_frontend import layout as layouts
 from deixis_frontend import lcm_url
+from deixis_frontend.channel_patterns import channel_pattern
 from deixis_frontend.errors import UserError
 from deixis_frontend.interrupts import end_as_by_ctrl_c
 from deixis_frontend.lcm_tools import find_logger, url_option
@@ -23,7 +25,7 @@ _SAY_EVERY_S = 2.0
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Where to, how long, and what."""
-    parser.add_argument("channels", nargs="*",
+    parser.add_argument("channels", nargs="*", type=channel_pattern,
                         help="channels or regular expressions of them (default: all)")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE",
                         help="log file (default: output/recordings/<time>.lcmlog);"
@@ -66,8 +68,8 @@ def _make_folder(folder: Path) -> None:
     print(f"created the folder {folder}", flush=True)
 
 
-def _pattern(channels: list[str]) -> str:
-    return "|".join(f"({channel})" for channel in channels) if channels else ".*"
+def _pattern(channels: list[re.Pattern[str]]) -> str:
+    return "|".join(f"({channel.pattern})" for channel in channels) if channels else ".*"
 
 
 def _wait(logger: subprocess.Popen[str], seconds: float | None, file: UnfinishedFile) -> None:

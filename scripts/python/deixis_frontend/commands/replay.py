@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import re
 import sys
 from pathlib import Path
 
 from deixis_frontend import lcm_url, log_player
 from deixis_frontend.bus import open_bus
+from deixis_frontend.channel_patterns import channel_pattern
 from deixis_frontend.errors import UserError
 from deixis_frontend.lcm_tools import require_log
 from deixis_frontend.log_player import Played
@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, help="log file")
     parser.add_argument("--speed", type=above_zero, default=1.0, metavar="X",
                         help="2 = twice as fast as recorded (default: 1)")
-    parser.add_argument("--channels", type=_pattern, default=".*", metavar="REGEX",
+    parser.add_argument("--channels", type=channel_pattern, default=".*", metavar="REGEX",
                         help="only these (default: all)")
 
 
@@ -42,10 +42,3 @@ def _why_nothing(arguments: argparse.Namespace, played: Played) -> str:
         return f"nothing was published: {arguments.file} holds no whole message"
     return (f"nothing was published: no channel is '{arguments.channels.pattern}': {arguments.file}"
             f" has {', '.join(sorted(played.other_channels))}")
-
-
-def _pattern(text: str) -> re.Pattern[str]:
-    try:
-        return re.compile(text)
-    except re.error as error:
-        raise argparse.ArgumentTypeError(f"'{text}' is no regular expression: {error}") from None

@@ -66,7 +66,7 @@ def offline_command(layout: layouts.Layout, source: Path, target: Path, settings
                     services: str | None = None) -> list[str]:
     """Command line of deixis-offline."""
     command = [str(layout.program("deixis-offline")), str(source), str(target)]
-    if services:
+    if services is not None:
         command += ["--services", services]
     for assignment in settings:
         command += ["--set", assignment]

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation.hand_scores import TrueHand
 from deixis_frontend.evaluation.sequences import Sequence, Skipped, read_sequences
 
@@ -36,6 +37,8 @@ class HandRecording:
 
 def read_recordings(data: Path, only: str | None) -> tuple[list[HandRecording], list[Skipped]]:
     """The recordings in `data` whose name matches the glob `only`, and those without labelled hands."""
+    if not data.is_dir():
+        raise UserError(f"--data {data} is no folder: name one with sequence folders or videos")
     sequences, skipped = read_sequences(data, only, ("joints.csv", "left.mp4"))
     recordings = [_from_sequence(sequence) for sequence in sequences]
     for video in sorted([*data.glob("*.mp4"), *data.glob("*.avi")]):
