@@ -16,6 +16,10 @@ namespace deixis::viewer {
 
 using transport::Delivery;
 
+namespace {
+constexpr std::size_t kMostUnwritten = 16;  // Gestures that wait for their picture.
+}  // namespace
+
 void ViewerServiceConfig::Validate() const {
   config::Faults faults;
   const auto channel_faults = transport::ChannelFaults({{"image_channel", image_channel},
@@ -49,6 +53,7 @@ template <typename Message>
 void ViewerService::Collect(transport::Bus& input, const std::string& channel, Delivery delivery) {
   input.Subscribe<Message>(channel, delivery, [this](const Message& message) {
     history_.Add(message);
+    WriteGestures();
     ShowWhatIsReady();
   });
 }
@@ -58,8 +63,22 @@ void ViewerService::OnGesture(const scene::Gesture& gesture) {
   if (gesture.end.microseconds != 0) return;
   history_.Add(gesture);
   if (!files_) return;
-  if (const auto scene = history_.At(gesture.time)) {
-    Save([&] { files_->WriteGesture(gesture, DrawOverlay(*scene)); });
+  unwritten_.push_back(gesture);
+  if (unwritten_.size() > kMostUnwritten) unwritten_.pop_front();
+  WriteGestures();
+}
+
+/// A gesture may be told before its picture comes, or of a picture that was passed over.
+void ViewerService::WriteGestures() {
+  for (auto gesture = unwritten_.begin(); gesture != unwritten_.end();) {
+    auto scene = history_.From(gesture->time);
+    if (!scene) {
+      ++gesture;
+      continue;
+    }
+    scene->decision = *gesture;
+    Save([&] { files_->WriteGesture(*gesture, DrawOverlay(*scene)); });
+    gesture = unwritten_.erase(gesture);
   }
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -48,6 +49,7 @@ class ViewerService {
   template <typename Message>
   void Collect(transport::Bus& input, const std::string& channel, transport::Delivery delivery);
   void OnGesture(const scene::Gesture& gesture);
+  void WriteGestures();
   void ShowWhatIsReady();
   bool IsLatestDue(Timestamp time) const;
   template <typename Write>
@@ -56,6 +58,7 @@ class ViewerService {
   ViewerServiceConfig config_;
   SceneHistory history_;
   std::optional<PictureFiles> files_;
+  std::deque<scene::Gesture> unwritten_;  ///< Their pictures have not come yet.
   std::optional<Timestamp> latest_written_;
   std::string trouble_;  ///< Why the last picture could not be written; empty = it was.
 };

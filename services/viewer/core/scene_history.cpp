@@ -67,11 +67,13 @@ std::optional<Scene> SceneHistory::Take() {
   return std::nullopt;
 }
 
-std::optional<Scene> SceneHistory::At(Timestamp time) const {
-  for (auto image = images_.rbegin(); image != images_.rend(); ++image) {
-    if (!(time < image->time)) return Compose(*image);
-  }
-  return std::nullopt;
+std::optional<Scene> SceneHistory::From(Timestamp time) const {
+  const auto image = std::find_if(images_.begin(), images_.end(), [time](const auto& candidate) {
+    return !(candidate.time < time);
+  });
+  if (image == images_.end()) return std::nullopt;
+  if (SecondsBetween(time, image->time) > config_.max_delay_s) return std::nullopt;
+  return Compose(*image);
 }
 
 bool SceneHistory::IsComplete(const images::Image& image) const {

@@ -51,8 +51,9 @@ class SceneHistory {
 
   /// The newest picture not yet taken whose results are there, or that has waited long enough.
   std::optional<Scene> Take();
-  /// The newest picture that is not later than `time`; nothing when none is kept.
-  std::optional<Scene> At(Timestamp time) const;
+  /// The first picture that is kept of `time` or after; nothing when there is none yet, or the
+  /// picture of that time has gone.
+  std::optional<Scene> From(Timestamp time) const;
 
  private:
   template <typename Result>

@@ -78,7 +78,7 @@ TEST_F(SceneHistoryTest, TakesTheResultBeforeForAPictureThatWasPassedOver) {
   AddHands(3);
   AddImage(3);
   EXPECT_EQ(Taken(), 3);
-  EXPECT_EQ(history_.At(Time(2))->hands->time, Time(1));
+  EXPECT_EQ(history_.From(Time(2))->hands->time, Time(1));
 }
 
 TEST_F(SceneHistoryTest, DoesNotDrawResultsThatAreTooOld) {
@@ -101,9 +101,9 @@ TEST_F(SceneHistoryTest, KeepsADecisionForAWhile) {
 
 TEST_F(SceneHistoryTest, FindsThePictureOfAnEvent) {
   for (int i = 1; i <= 5; ++i) AddImage(i);
-  EXPECT_EQ(history_.At(Time(3))->image.time, Time(3));
-  EXPECT_EQ(history_.At({Time(3).microseconds + 5})->image.time, Time(3));
-  EXPECT_FALSE(history_.At(Time(0)));
+  EXPECT_EQ(history_.From(Time(3))->image.time, Time(3));
+  EXPECT_EQ(history_.From({Time(3).microseconds - 5})->image.time, Time(3));
+  EXPECT_FALSE(history_.From(Time(6)));
 }
 
 TEST_F(SceneHistoryTest, BeginsAnewWhenTimeGoesBack) {
@@ -121,8 +121,8 @@ TEST_F(SceneHistoryTest, BeginsAnewWhenTimeGoesBack) {
 
 TEST_F(SceneHistoryTest, KeepsNoMorePicturesThanItMay) {
   for (int i = 1; i <= 100; ++i) AddImage(i);
-  EXPECT_FALSE(history_.At(Time(80)));
-  EXPECT_TRUE(history_.At(Time(90)));
+  EXPECT_FALSE(history_.From(Time(70)));
+  EXPECT_TRUE(history_.From(Time(90)));
 }
 
 }  // namespace

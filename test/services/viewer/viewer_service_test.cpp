@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <opencv2/imgcodecs.hpp>
+
 #include "common/messages/gesture.h"
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
@@ -65,6 +67,17 @@ TEST_F(ViewerServiceTest, WritesOnePicturePerGesture) {
   SendImage(1'100'000);
   SendGesture(1, 1'100'000, 1'090'000);  // The same gesture has ended.
   EXPECT_FALSE(Exists("gesture_1_lamp_1100000.png"));
+}
+
+TEST_F(ViewerServiceTest, WaitsForThePictureOfAGesture) {
+  ViewerService service(config_, bus_, bus_);
+  SendImage(1'000'000);
+  SendGesture(1, 1'066'667, 0);
+  EXPECT_FALSE(Exists("gesture_1_lamp_1066667.png"));
+  SendImage(1'066'667);
+  ASSERT_TRUE(Exists("gesture_1_lamp_1066667.png"));
+  const cv::Mat picture = cv::imread((folder_.path() / "gesture_1_lamp_1066667.png").string());
+  EXPECT_GT(cv::countNonZero(picture.reshape(1)), 0) << "the decision is written into it";
 }
 
 TEST_F(ViewerServiceTest, KnowsTheEndOfAGestureAfterAnotherHasBegun) {
