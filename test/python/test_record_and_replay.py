@@ -223,8 +223,8 @@ def test_replay_goes_on_behind_damage(url: str, log: Path) -> None:
     log.write_bytes(data[:90] + b"noise" * 100 + data[180:])
     result = deixis(url, "replay", log)
     assert result.returncode == 0, result.stderr
-    assert "500 bytes are damaged and were passed over" in result.stderr
-    assert "published 17 messages" in result.stdout
+    assert "530 bytes are damaged and were passed over" in result.stderr
+    assert "published 16 messages" in result.stdout  # That before the noise may hold some.
 
 
 def test_replay_does_not_wait_for_a_clock_that_jumped(url: str, log: Path) -> None:

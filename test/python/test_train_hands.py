@@ -13,6 +13,7 @@ from deixis_frontend.cli import main
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation.hand_recordings import HandRecording
 from deixis_frontend.evaluation.hand_scores import TrueHand
+from deixis_frontend.evaluation.offline_chain import write_pictures
 from deixis_frontend.programs import run_program
 from deixis_frontend.training.hands import Examples, fit
 
@@ -65,9 +66,7 @@ def test_the_tracker_lists_exactly_what_its_configuration_weighs(tmp_path: Path)
     where = layout.find()
     clip = Path(__file__).resolve().parents[1] / "data" / "clips" / "spread_01" / "left.mp4"
     pictures, faces = tmp_path / "pictures.lcmlog", tmp_path / "faces.lcmlog"
-    run_program(where, "deixis-camera-driver", "--set", "source.kind=video",
-                "--set", f"source.path={clip}", "--set", "pace=as_fast_as_possible",
-                "--lcm-url", f"file://{pictures}?mode=w")
+    write_pictures(where, clip, pictures)
     run_program(where, "deixis-offline", str(pictures), str(faces), "--services", "object_detector")
     heading, *listed = run_program(where, "deixis-list-hand-candidates", str(faces)).splitlines()
     shipped = yaml.safe_load((where.config / "hand_tracker.yaml").read_text("utf-8"))

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from deixis_frontend.errors import UserError
 from deixis_frontend.lcm_url import LcmUrl
-
-EVENT_MAGIC = b"\xed\xa1\xda\x01"  # every event of a log file begins with it
+from deixis_lcm.log_events import SYNC
 
 
 def find_logger() -> str:
@@ -30,11 +29,11 @@ def require_log(path: Path) -> None:
     """Raises UserError when `path` is no LCM log file."""
     try:
         with path.open("rb") as file:
-            begin = file.read(len(EVENT_MAGIC))
+            begin = file.read(len(SYNC))
     except OSError as error:
         raise UserError(f"{path}: {error.strerror}:"
                         " name a log that `deixis record` wrote") from None
     if not begin:
         raise UserError(f"{path} is empty: nothing was recorded")
-    if begin != EVENT_MAGIC:
+    if begin != SYNC:
         raise UserError(f"{path} is no LCM log: name a file that `deixis record` wrote")

@@ -57,7 +57,7 @@ class EventReader:
                 yield event
                 offset = following
                 continue
-            offset = yield from self._past_damage(offset, event)
+            offset = self._past_damage(offset)
 
     def data(self, event):
         """The bytes of a message."""
@@ -73,13 +73,10 @@ class EventReader:
             parts.append("it ends in the middle of a message")
         return " and ".join(parts)
 
-    def _past_damage(self, offset, event):
-        """Yields `event` if the damage lies behind it; returns where to go on."""
+    def _past_damage(self, offset):
+        """Where to go on. What no sync word follows is damaged, too: noise may stand within it."""
         following = self._next_event(offset + 1)
-        if event is not None and following >= event.end:
-            yield event
-            self.damaged_bytes += following - event.end
-        elif following == self._size and self._is_header(offset):
+        if following == self._size and self._event_at(offset) is None and self._is_header(offset):
             self.is_cut_off = True
         else:
             self.damaged_bytes += following - offset

@@ -4,9 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/gesture_recogniser/core/log_probability.h"
+#include "common/filtering/log_probability.h"
 
 namespace deixis::gesture_recogniser {
+
+using filtering::kImpossible;
+using filtering::kTwoPi;
+using filtering::LogAdd;
+using filtering::LogNormal;
+using filtering::LogPlaneNormal;
+
 namespace {
 
 constexpr double kUpperArm_m = 0.28;           // Shoulder to elbow.

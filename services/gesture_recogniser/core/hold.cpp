@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/gesture_recogniser/core/log_probability.h"
+#include "common/filtering/log_probability.h"
 
 namespace deixis::gesture_recogniser {
+
+using filtering::LogAdd;
+using filtering::LogPlaneNormal;
+
 namespace {
 
 /// Straight line through samples at equal steps.

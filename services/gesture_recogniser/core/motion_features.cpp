@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/gesture_recogniser/core/log_probability.h"
+#include "common/filtering/log_probability.h"
 
 namespace deixis::gesture_recogniser {
+
+using filtering::kTwoPi;
+
 namespace {
 
 double Heading(const Eigen::Vector2d& step) { return std::atan2(step.y(), step.x()); }

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/gesture_recogniser/core/log_probability.h"
+#include "common/filtering/log_probability.h"
 
 namespace deixis::gesture_recogniser {
+
+using filtering::kTwoPi;
+
 namespace {
 
 ModelTable::Point Prepare(const ModelPoint& point) {

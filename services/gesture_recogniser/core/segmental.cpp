@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/filtering/log_probability.h"
 #include "services/gesture_recogniser/core/context.h"
 #include "services/gesture_recogniser/core/decision.h"
 #include "services/gesture_recogniser/core/index.h"
-#include "services/gesture_recogniser/core/log_probability.h"
 
 namespace deixis::gesture_recogniser {
+
+using filtering::kImpossible;
+using filtering::kTwoPi;
+using filtering::LogAdd;
+
 namespace {
 
 const GestureModel& StrokeModel(const std::vector<GestureModel>& models) {

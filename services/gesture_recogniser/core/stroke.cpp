@@ -4,10 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "common/filtering/log_probability.h"
 #include "services/gesture_recogniser/core/index.h"
-#include "services/gesture_recogniser/core/log_probability.h"
 
 namespace deixis::gesture_recogniser {
+
+using filtering::kImpossible;
+using filtering::LogAdd;
+using filtering::LogNormal;
+
 namespace {
 
 constexpr double kNoiseTolerance =

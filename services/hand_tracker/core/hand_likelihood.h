@@ -41,7 +41,6 @@ struct HandLikelihoodWeights {
     v("moving_and_fresh", moving_and_fresh);
     v("by_motion_alone", by_motion_alone);
   }
-  void Validate() const {}
 };
 
 struct HandLikelihoodConfig {

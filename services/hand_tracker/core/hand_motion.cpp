@@ -3,20 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/filtering/log_probability.h"
+
 namespace deixis::hand_tracker {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
-/// Of a round normal distribution in the plane.
-double LogNormal2(double distance, double sigma) {
-  return -0.5 * distance * distance / (sigma * sigma) - std::log(kTwoPi * sigma * sigma);
-}
-
-/// Log of the sum of exp(a) and exp(b).
-double LogSum(double a, double b) {
-  return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
-}
+using filtering::LogAdd;
+using filtering::LogPlaneNormal;
 
 /// Where the last speed takes the hand while it dies away.
 Eigen::Vector2d Foretold(const HandMotionConfig& config, const LastSight& last) {
@@ -58,9 +51,11 @@ NextPlace JudgeNextPlace(const HandMotionConfig& config, const LastSight& last,
   const double jump_sigma =
       std::min(config.jump_spread + config.jump_speed * last.elapsed_s, config.jump_largest);
   const double rest =
-      LogSum(LogNormal2(stays, rest_sigma), LogNormal2(goes_on, rest_sigma)) - std::log(2.0);
-  const double move = LogSum(std::log(1.0 - config.jump_share) + LogNormal2(goes_on, move_sigma),
-                             std::log(config.jump_share) + LogNormal2(stays, jump_sigma));
+      LogAdd(LogPlaneNormal(stays, rest_sigma), LogPlaneNormal(goes_on, rest_sigma)) -
+      std::log(2.0);
+  const double move =
+      LogAdd(std::log(1.0 - config.jump_share) + LogPlaneNormal(goes_on, move_sigma),
+             std::log(config.jump_share) + LogPlaneNormal(stays, jump_sigma));
   const double log_stop = std::log(-std::expm1(-image_s / config.stroke_time_s));
   const double log_start = std::log(-std::expm1(-image_s / config.rest_time_s));
   const double log_rests = last.is_moving ? log_stop : -image_s / config.rest_time_s;

@@ -37,7 +37,7 @@ void HandRoles::FollowTrack(const HandTrack& track, const Person* person, double
   const double speed = track.velocity().norm() / track.hand_length_px();
   role.speed += (1.0 - std::exp(-elapsed_s / config_.intent_time_s)) * (speed - role.speed);
   if (person == nullptr) return;
-  role.person = person->face_id;
+  role.person = person->key;
   // A person who faces the camera has the left hand at the image's right.
   const double aside = (track.centre().x() - scene::Centre(person->face).x()) / HandLength(*person);
   const double weight = config_.side_rate * std::clamp(aside, -1.5, 1.5);

@@ -29,7 +29,7 @@ struct HandRolesConfig {
 
 /// What a hand is to its person.
 struct HandRole {
-  int person = -1;             ///< Key of the person (face id); -1 = nobody's.
+  int person = -1;             ///< Key of the person; -1 = nobody's.
   double left_log_odds = 0.0;  ///< Of being the left hand, from where it was seen so far.
   double side_score = 0.0;     ///< The same after the other hand had its say.
   double speed = 0.0;          ///< Recent mean, hand lengths/s.

@@ -35,7 +35,7 @@ scene::Hand ToHand(const HandTrack& track, const HandRole& role,
   scene::Hand hand;
   hand.id = track.id();
   for (const Person& person : people) {
-    if (person.face_id == role.person) hand.person_id = person.person_id;
+    if (person.key == role.person) hand.person_id = person.person_id;
   }
   if (role.person >= 0 && std::abs(role.side_score) > 0.5) {
     hand.side = role.side_score > 0.0 ? scene::Side::kLeft : scene::Side::kRight;

@@ -72,7 +72,7 @@ void People::Update(const scene::Object& face, Timestamp time) {
   constexpr double kFollowSize = 0.15;  // ... and of its size, which detectors know less well.
   Person* person = Find(face, time);
   if (person == nullptr) {
-    people_.push_back({next_key_++, face.person_id, face.id, *face.box, time, 1, 0, 0.0});
+    people_.push_back({next_key_++, face.person_id, *face.box, time, 1, 0, 0.0});
     return;
   }
   const Eigen::Vector2d centre = scene::Centre(Blend(person->face, *face.box, kFollow));
@@ -80,7 +80,6 @@ void People::Update(const scene::Object& face, Timestamp time) {
   person->face = {centre.x() - 0.5 * size.width_px, centre.y() - 0.5 * size.height_px,
                   size.width_px, size.height_px};
   person->person_id = face.person_id;
-  person->face_id = face.id;
   person->last_seen = time;
   ++person->times_seen;
 }

@@ -14,7 +14,6 @@ namespace deixis::hand_tracker {
 struct Person {
   int key = -1;        ///< Stays the same for as long as the person is remembered.
   int person_id = -1;  ///< As given with the face; -1 = none was given.
-  int face_id = -1;    ///< The face object's id.
   scene::Box face;     ///< Smoothed.
   Timestamp last_seen;
   int times_seen = 0;

@@ -2,18 +2,22 @@
 
 #include <filesystem>
 
+#include "common/filtering/log_probability.h"
 #include "services/gesture_recogniser/core/condensation.h"
 #include "services/gesture_recogniser/core/context.h"
 #include "services/gesture_recogniser/core/destination.h"
 #include "services/gesture_recogniser/core/hold.h"
 #include "services/gesture_recogniser/core/image_scale.h"
-#include "services/gesture_recogniser/core/log_probability.h"
 #include "services/gesture_recogniser/core/rest_place.h"
 #include "services/gesture_recogniser/core/stroke.h"
 #include "test/services/gesture_recogniser/gesture_scene.h"
 #include "test/support/temporary_folder.h"
 
 namespace deixis::gesture_recogniser {
+
+using filtering::kImpossible;
+using filtering::kTwoPi;
+
 namespace {
 
 using testing::HasSubstr;

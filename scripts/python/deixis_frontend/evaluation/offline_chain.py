@@ -22,10 +22,15 @@ def results_of_video(layout: Layout, video: Path, services: Sequence[str], chann
 
     with tempfile.TemporaryDirectory() as folder:
         pictures, results = Path(folder) / "pictures.lcmlog", Path(folder) / "results.lcmlog"
-        run_program(layout, "deixis-camera-driver", "--set", "source.kind=video",
-                    "--set", f"source.path={video.resolve()}", "--set", "pace=as_fast_as_possible",
-                    "--lcm-url", f"file://{pictures}?mode=w")
+        write_pictures(layout, video, pictures)
         run_program(layout, "deixis-offline", str(pictures), str(results), "--results-only",
                     "--services", ",".join(services),
                     *(word for setting in settings for word in ("--set", setting)))
         return [(channel, message) for _, channel, message in logs.read(results, channels)]
+
+
+def write_pictures(layout: Layout, video: Path, log: Path) -> None:
+    """Writes a log of the video's pictures as the camera driver publishes them."""
+    run_program(layout, "deixis-camera-driver", "--set", "source.kind=video",
+                "--set", f"source.path={video.resolve()}", "--set", "pace=as_fast_as_possible",
+                "--lcm-url", f"file://{log}?mode=w")

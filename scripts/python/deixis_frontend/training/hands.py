@@ -19,6 +19,7 @@ import numpy as np
 from deixis_frontend import layout, output_files
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation.hand_recordings import HandRecording, read_recordings
+from deixis_frontend.evaluation.offline_chain import write_pictures
 from deixis_frontend.programs import run_program
 
 FAST = 3.5  # hand lengths per second from which a hand counts as moving
@@ -66,9 +67,7 @@ def _candidates(where: layout.Layout,
     """Names of what is weighed, and a row per image and per candidate."""
     with tempfile.TemporaryDirectory() as folder:
         pictures, faces = Path(folder) / "pictures.lcmlog", Path(folder) / "faces.lcmlog"
-        run_program(where, "deixis-camera-driver", "--set", "source.kind=video",
-                    "--set", f"source.path={recording.video.resolve()}",
-                    "--set", "pace=as_fast_as_possible", "--lcm-url", f"file://{pictures}?mode=w")
+        write_pictures(where, recording.video, pictures)
         run_program(where, "deixis-offline", str(pictures), str(faces),
                     "--services", "object_detector")
         text = run_program(where, "deixis-list-hand-candidates", str(faces))

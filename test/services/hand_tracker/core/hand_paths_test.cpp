@@ -2,35 +2,30 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "test/services/hand_tracker/core/made_candidate.h"
 
 namespace deixis::hand_tracker {
 namespace {
 
 constexpr double kImage_s = 1.0 / 15.0;
-constexpr double kHandLength_px = 40.0;
 
 enum class Motion { kMoves, kSways, kKeepsStill };
 
 // A region as large as a hand. Of what moves all pixels changed since the last image; of what sways
 // only of late.
 HandCandidate At(double x_px, double y_px, Motion motion) {
-  HandCandidate candidate;
-  candidate.centre = candidate.tip = candidate.root = {x_px, y_px};
-  candidate.box = {x_px - 10.0, y_px - 15.0, 20.0, 30.0};
-  candidate.hand_length_px = kHandLength_px;
-  candidate.area_px = 0.3 * kHandLength_px * kHandLength_px;
-  candidate.region_length_px = kHandLength_px;
-  candidate.moving_share = motion == Motion::kKeepsStill ? 0.0 : 1.0;
-  candidate.fresh_share = motion == Motion::kMoves ? 1.0 : 0.0;
-  return candidate;
+  return MadeCandidate({x_px, y_px}, motion == Motion::kKeepsStill ? 0.0 : 1.0,
+                       motion == Motion::kMoves ? 1.0 : 0.0);
 }
 
 // Face at (200, 100): shoulders at (165, 141) and (235, 141).
 Person Somebody() {
   Person person;
   person.key = 0;
-  person.face = {180.0, 80.0, kHandLength_px, kHandLength_px};
+  person.face = {180.0, 80.0, kMadeHandLength_px, kMadeHandLength_px};
   return person;
 }
 

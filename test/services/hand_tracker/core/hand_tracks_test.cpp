@@ -5,34 +5,28 @@
 #include <stdexcept>
 #include <utility>
 
+#include "test/services/hand_tracker/core/made_candidate.h"
+
 namespace deixis::hand_tracker {
 namespace {
 
 constexpr double kElapsed_s = 1.0 / 15.0;
-constexpr double kHandLength_px = 40.0;
 
 enum class Motion { kMoves, kSways };
 
 // A region as large as a hand; of nobody unless `person` says whose.
 HandCandidate At(double x_px, double y_px, Motion motion = Motion::kSways, int person = -1) {
-  HandCandidate candidate;
-  candidate.centre = candidate.tip = candidate.root = {x_px, y_px};
-  candidate.box = {x_px - 10.0, y_px - 15.0, 20.0, 30.0};
-  candidate.hand_length_px = kHandLength_px;
-  candidate.area_px = 0.3 * kHandLength_px * kHandLength_px;
-  candidate.region_length_px = kHandLength_px;
-  candidate.moving_share = 1.0;
-  candidate.fresh_share = motion == Motion::kMoves ? 1.0 : 0.0;
+  HandCandidate candidate = MadeCandidate({x_px, y_px}, 1.0, motion == Motion::kMoves ? 1.0 : 0.0);
   candidate.person = person;
   candidate.shoulder = person >= 0 ? 0 : -1;
-  candidate.root_distance_px = candidate.shoulder_distance_px = 2.0 * kHandLength_px;
+  candidate.root_distance_px = candidate.shoulder_distance_px = 2.0 * kMadeHandLength_px;
   return candidate;
 }
 
 Person PersonAt(int key, double x_px) {
   Person person;
   person.key = key;
-  person.face = {x_px - 20.0, 80.0, kHandLength_px, kHandLength_px};
+  person.face = {x_px - 20.0, 80.0, kMadeHandLength_px, kMadeHandLength_px};
   return person;
 }
 

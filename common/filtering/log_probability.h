@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-namespace deixis::gesture_recogniser {
+namespace deixis::filtering {
 
 constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
@@ -25,4 +25,4 @@ inline double LogPlaneNormal(double distance, double sigma) {
   return -0.5 * ratio * ratio - std::log(kTwoPi * sigma * sigma);
 }
 
-}  // namespace deixis::gesture_recogniser
+}  // namespace deixis::filtering
