@@ -1,8 +1,10 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/geometry/rigid_transform.h"
 #include "common/time/timestamp.h"
 
 namespace deixis::geometry {
@@ -23,6 +25,8 @@ struct CameraCalibration {
   Eigen::Vector2d principal_point_px = Eigen::Vector2d::Zero();  ///< cx, cy.
   Eigen::Matrix3d rectification = Eigen::Matrix3d::Identity();   ///< rectified_from_camera.
   bool is_calibrated = false;  ///< False: guessed from the field of view.
+  std::string parent_frame;    ///< Frame that the camera is mounted in; empty = not known.
+  std::optional<RigidTransform> parent_from_camera;  ///< Its place there; nothing = not known.
 };
 
 /// A camera without distortion whose horizontal field of view is `horizontal_fov_rad`; marked as

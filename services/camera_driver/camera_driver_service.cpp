@@ -18,21 +18,23 @@ Timestamp Now() {
 }
 
 // steady_clock is CLOCK_MONOTONIC on Linux.
-Clocks SystemClocks() { return {Now<std::chrono::system_clock>, Now<std::chrono::steady_clock>}; }
-
-// OpenCV would say a page on every way in which it failed to open something; ours is one line.
-std::unique_ptr<Source> OpenQuietly(const SourceConfig& config) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  return MakeSource(config, SystemClocks());
+capture::Clocks SystemClocks() {
+  return {Now<std::chrono::system_clock>, Now<std::chrono::steady_clock>};
 }
 
-program::StepResult ResultOf(SourceState state) {
+// OpenCV would say a page on every way in which it failed to open something; ours is one line.
+std::unique_ptr<capture::Source> OpenQuietly(const capture::SourceConfig& config) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  return capture::MakeSource(config, SystemClocks());
+}
+
+program::StepResult ResultOf(capture::SourceState state) {
   switch (state) {
-    case SourceState::kPicture:
+    case capture::SourceState::kPicture:
       return program::StepResult::kContinue;
-    case SourceState::kWaiting:
+    case capture::SourceState::kWaiting:
       return program::StepResult::kIdle;
-    case SourceState::kFinished:
+    case capture::SourceState::kFinished:
       return program::StepResult::kFinished;
   }
   return program::StepResult::kFinished;
@@ -61,7 +63,7 @@ program::StepResult CameraDriverService::Step() {
   const DriverOutput step = driver_.Next(Now<std::chrono::system_clock>());
   Publish(step);
   LogNews();
-  if (step.state == SourceState::kFinished) LogSummary();
+  if (step.state == capture::SourceState::kFinished) LogSummary();
   return ResultOf(step.state);
 }
 
@@ -73,7 +75,7 @@ void CameraDriverService::Publish(const DriverOutput& step) {
 }
 
 void CameraDriverService::LogSummary() const {
-  const SourceStatus status = driver_.status();
+  const capture::SourceStatus status = driver_.status();
   if (published_ == 0) {
     throw config::ConfigError("no picture of '" + config_.driver.source.path + "' can be read (" +
                               std::to_string(status.corrupt) +
@@ -100,7 +102,7 @@ void CameraDriverService::LogNews() {
 }
 
 transport::Health CameraDriverService::health() const {
-  const SourceStatus status = driver_.status();
+  const capture::SourceStatus status = driver_.status();
   transport::Health health;
   health.is_degraded = !status.trouble.empty();
   Append(status.trouble, health.text);

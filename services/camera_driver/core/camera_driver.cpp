@@ -14,7 +14,7 @@ constexpr double kCalibrationPeriod_s = 1.0;
 
 void CameraDriverConfig::Check(config::Faults& faults) const {
   faults.Require(config::IsPlainText(camera), "camera", config::kPlainTextRule);
-  faults.Require(start_time_utime >= -1 && start_time_utime <= kLatestTime.microseconds,
+  faults.Require(start_time_utime >= -1 && start_time_utime <= capture::kLatestTime.microseconds,
                  "start_time_utime",
                  "must be -1 (chosen by the pace) or a time in microseconds, 2^59 at most");
   source.Check(faults);
@@ -22,7 +22,8 @@ void CameraDriverConfig::Check(config::Faults& faults) const {
   image.Check(faults);
 }
 
-CameraDriver::CameraDriver(const CameraDriverConfig& config, std::unique_ptr<Source> source)
+CameraDriver::CameraDriver(const CameraDriverConfig& config,
+                           std::unique_ptr<capture::Source> source)
     : config_(config),
       source_(std::move(source)),
       calibration_(config.calibration),
@@ -34,20 +35,20 @@ DriverOutput CameraDriver::Next(Timestamp now) {
   output.state = Fetch();
   if (!waiting_) return output;
   if (!IsDue(now)) {
-    output.state = SourceState::kWaiting;
+    output.state = capture::SourceState::kWaiting;
     return output;
   }
   const Timestamp time = is_live_ ? waiting_->time : pacer_.CaptureTime(waiting_->time);
-  output.state = SourceState::kPicture;
-  output.picture = Encode(*waiting_, time, config_.camera, config_.image);
+  output.state = capture::SourceState::kPicture;
+  output.picture = capture::Encode(*waiting_, time, config_.camera, config_.image);
   output.calibration = CalibrationIfDue(*output.picture);
   waiting_.reset();
   return output;
 }
 
-SourceState CameraDriver::Fetch() {
-  if (waiting_) return SourceState::kPicture;
-  Grab grab = source_->Next();
+capture::SourceState CameraDriver::Fetch() {
+  if (waiting_) return capture::SourceState::kPicture;
+  capture::Grab grab = source_->Next();
   waiting_ = std::move(grab.picture);
   return grab.state;
 }

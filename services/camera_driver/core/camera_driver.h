@@ -3,22 +3,22 @@
 #include <optional>
 #include <string>
 
+#include "common/capture/calibration.h"
+#include "common/capture/pacer.h"
+#include "common/capture/picture_encoder.h"
+#include "common/capture/sources.h"
 #include "common/geometry/camera_calibration.h"
 #include "common/images/encoded_image.h"
-#include "services/camera_driver/core/calibration.h"
-#include "services/camera_driver/core/pacer.h"
-#include "services/camera_driver/core/picture_encoder.h"
-#include "services/camera_driver/core/sources/sources.h"
 
 namespace deixis::camera_driver {
 
 struct CameraDriverConfig {
-  std::string camera = "CAMERA";       ///< Name of the camera in all messages.
-  SourceConfig source;                 ///< Where pictures come from.
-  Pace pace = Pace::kByTime;           ///< How fast a recording is played.
-  std::int64_t start_time_utime = -1;  ///< Recordings: see Pacer.
-  CalibrationConfig calibration;       ///< What is known of the lens.
-  EncodingConfig image;                ///< How pictures are published.
+  std::string camera = "CAMERA";                ///< Name of the camera in all messages.
+  capture::SourceConfig source;                 ///< Where pictures come from.
+  capture::Pace pace = capture::Pace::kByTime;  ///< How fast a recording is played.
+  std::int64_t start_time_utime = -1;           ///< Recordings: see Pacer.
+  capture::CalibrationConfig calibration;       ///< What is known of the lens.
+  capture::EncodingConfig image;                ///< How pictures are published.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -34,7 +34,7 @@ struct CameraDriverConfig {
 
 /// What one step of the driver has brought.
 struct DriverOutput {
-  SourceState state = SourceState::kWaiting;
+  capture::SourceState state = capture::SourceState::kWaiting;
   std::optional<geometry::CameraCalibration> calibration;  ///< To be published before the picture.
   std::optional<images::EncodedImage> picture;             ///< Set with kPicture only.
 };
@@ -44,29 +44,29 @@ struct DriverOutput {
 /// changes.
 class CameraDriver {
  public:
-  CameraDriver(const CameraDriverConfig& config, std::unique_ptr<Source> source);
+  CameraDriver(const CameraDriverConfig& config, std::unique_ptr<capture::Source> source);
 
   /// The next picture that is due at `now` (wall clock); never waits. Throws ConfigError when the
   /// calibration does not suit the pictures.
   DriverOutput Next(Timestamp now);
 
-  SourceStatus status() const { return source_->status(); }
+  capture::SourceStatus status() const { return source_->status(); }
   /// What has to be known about the calibration ("guessed ..."); empty before the first picture and
   /// when it is as in its file.
   const std::string& calibration_remark() const { return lens_.remark; }
 
  private:
-  SourceState Fetch();
+  capture::SourceState Fetch();
   bool IsDue(Timestamp now);
   std::optional<geometry::CameraCalibration> CalibrationIfDue(const images::EncodedImage& picture);
 
   CameraDriverConfig config_;
-  std::unique_ptr<Source> source_;
-  Calibration calibration_;
-  Pacer pacer_;
+  std::unique_ptr<capture::Source> source_;
+  capture::Calibration calibration_;
+  capture::Pacer pacer_;
   bool is_live_;
-  std::optional<Picture> waiting_;  ///< Recorded picture whose time has not come.
-  CalibrationAnswer lens_;
+  std::optional<capture::Picture> waiting_;  ///< Recorded picture whose time has not come.
+  capture::CalibrationAnswer lens_;
   std::optional<Timestamp> calibration_sent_;
 };
 

@@ -14,6 +14,8 @@
 namespace deixis::camera_driver {
 namespace {
 
+using capture::Pace;
+using capture::SourceKind;
 using testing::ElementsAre;
 using testing::HasSubstr;
 

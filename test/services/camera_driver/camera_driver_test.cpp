@@ -2,11 +2,18 @@
 
 #include <gmock/gmock.h>
 
-#include "test/services/camera_driver/sources/scripted_source.h"
+#include "test/common/capture/scripted_source.h"
 
 namespace deixis::camera_driver {
 namespace {
 
+using capture::Grab;
+using capture::Pace;
+using capture::Picture;
+using capture::PictureAt;
+using capture::ScriptedSource;
+using capture::SourceState;
+using capture::SourceStatus;
 using testing::ElementsAre;
 using testing::HasSubstr;
 

@@ -1,0 +1,56 @@
+#pragma once
+#include <opencv2/core/types.hpp>
+#include <optional>
+#include <string>
+
+#include "common/config/config.h"
+#include "common/geometry/camera_calibration.h"
+
+namespace deixis::capture {
+
+struct CalibrationConfig {
+  /// OpenCV YAML with the lens: camera_matrix, distortion_coefficients as OpenCV's calibration
+  /// sample writes them, or M1, D1 as stereo_calib does. A path, or a name under config/. Empty =
+  /// guess.
+  std::string file;
+  double horizontal_fov_deg = 60.0;  ///< Guess without a file: horizontal field of view.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("file", file);
+    v("horizontal_fov_deg", horizontal_fov_deg);
+  }
+  void Check(config::Faults& faults) const;
+};
+
+/// A lens as a calibration file describes it.
+struct LensFile {
+  std::string path;
+  geometry::CameraCalibration calibration;  ///< width_px, height_px 0 when the file does not say.
+};
+
+/// Throws ConfigError naming file, key and cure.
+LensFile ReadLensFile(const std::string& path);
+
+/// What is known of the lens at one image size.
+struct CalibrationAnswer {
+  geometry::CameraCalibration calibration;
+  std::string remark;  ///< "guessed from ...", "scaled from 640x480"; empty = as in the file.
+};
+
+/// Knows the camera's lens for any image size.
+class Calibration {
+ public:
+  /// Reads the file, if one is named. Throws ConfigError.
+  explicit Calibration(const CalibrationConfig& config);
+
+  /// The lens of pictures of `size`: as in the file, scaled when they have another size of the same
+  /// aspect, or guessed without a file. Throws ConfigError when the aspect is another one.
+  CalibrationAnswer For(cv::Size size) const;
+
+ private:
+  CalibrationConfig config_;
+  std::optional<LensFile> lens_;
+};
+
+}  // namespace deixis::capture

@@ -1,0 +1,55 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/capture/clocks.h"
+#include "common/capture/source.h"
+#include "common/config/config.h"
+
+namespace deixis::capture {
+
+enum class SourceKind { kDevice, kUrl, kVideo, kFolder };
+
+inline auto EnumNames(SourceKind) {
+  return std::vector<std::pair<std::string, SourceKind>>{{"device", SourceKind::kDevice},
+                                                         {"url", SourceKind::kUrl},
+                                                         {"video", SourceKind::kVideo},
+                                                         {"folder", SourceKind::kFolder}};
+}
+
+/// Slower recordings are none.
+inline constexpr double kLowestRate_hz = 0.001;
+
+struct SourceConfig {
+  SourceKind kind = SourceKind::kDevice;  ///< What `path` is.
+  std::string path = "0";  ///< Device number or /dev/videoN, URL or GStreamer text, file, folder.
+  int width_px = 640;      ///< Asked of a device; it may give another size. 0 = its own choice.
+  int height_px = 480;     ///< Asked of a device. 0 = its own choice.
+  double rate_hz = 0.0;  ///< Device: asked of it. Recordings: replaces their times. 0 = their own.
+  std::string fourcc;  ///< Pixel format asked of a device: "MJPG", "YUYV". Empty = its own choice.
+  std::string pattern = "*";  ///< Folder: which file names, as a shell would match them.
+  bool loop = false;          ///< Recordings: begin again at the end; time goes on.
+  /// Where this stands in the configuration, for messages; not a setting.
+  std::string key = "source";
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("kind", kind);
+    v("path", path);
+    v("width_px", width_px);
+    v("height_px", height_px);
+    v("rate_hz", rate_hz);
+    v("fourcc", fourcc);
+    v("pattern", pattern);
+    v("loop", loop);
+  }
+  void Check(config::Faults& faults) const;  ///< Notes what is wrong under "<key>.<setting>".
+};
+
+/// Opens what `config` names: the one place that knows all kinds of sources. Throws ConfigError,
+/// with the cure, when it cannot be opened.
+std::unique_ptr<Source> MakeSource(const SourceConfig& config, const Clocks& clocks);
+
+}  // namespace deixis::capture
