@@ -1,10 +1,9 @@
 #include "common/messages/camera_calibration.h"
 
 #include <array>
-#include <deixis/camera_calibration_t.hpp>
 #include <utility>
 
-#include "common/messages/wire.h"
+#include "common/messages/geometry_parts.h"
 
 namespace deixis::messages {
 namespace {
@@ -41,10 +40,17 @@ void RequireSensible(const CameraCalibration& calibration) {
   if (!is_sensible) throw Rejected("out_of_range");
 }
 
+void FromMount(const CameraCalibration& calibration, camera_calibration_t& message) {
+  message.has_mount = calibration.parent_from_camera.has_value();
+  if (!calibration.parent_from_camera) return;
+  message.parent_frame = calibration.parent_frame;
+  FromTransform(*calibration.parent_from_camera, message.parent_from_camera.translation_m,
+                message.parent_from_camera.rotation_wxyz);
+}
+
 }  // namespace
 
-Decoded<CameraCalibration> Codec<CameraCalibration>::Decode(Bytes bytes) {
-  const auto message = DecodeWire<camera_calibration_t>(bytes);
+CameraCalibration ToCameraCalibration(const camera_calibration_t& message) {
   RequireCount(message.n_distortion, kMostDistortion);
   CameraCalibration calibration;
   calibration.time = ToTimestamp(message.utime);
@@ -58,12 +64,17 @@ Decoded<CameraCalibration> Codec<CameraCalibration>::Decode(Bytes bytes) {
   const auto rectification = ToVector<9>(message.rectification);
   calibration.rectification = Eigen::Map<const RowMajor3d>(rectification.data());
   calibration.is_calibrated = message.is_calibrated != 0;
+  if (message.has_mount != 0) {
+    const transform_t& mount = message.parent_from_camera;
+    calibration.parent_frame = message.parent_frame;
+    calibration.parent_from_camera = ToTransform(mount.translation_m, mount.rotation_wxyz);
+  }
   RequireSensible(calibration);
-  return {std::move(calibration), Count(message.sequence)};
+  return calibration;
 }
 
-std::vector<std::uint8_t> Codec<CameraCalibration>::Encode(const CameraCalibration& calibration,
-                                                           std::int64_t sequence) {
+camera_calibration_t FromCameraCalibration(const CameraCalibration& calibration,
+                                           std::int64_t sequence) {
   camera_calibration_t message{};
   message.utime = calibration.time.microseconds;
   message.sequence = sequence;
@@ -79,8 +90,18 @@ std::vector<std::uint8_t> Codec<CameraCalibration>::Encode(const CameraCalibrati
   FromVector(Eigen::Map<const Eigen::Matrix<double, 9, 1>>(rectification.data()),
              message.rectification);
   message.is_calibrated = calibration.is_calibrated;
-  message.parent_from_camera.rotation_wxyz[0] = 1.0;
-  return EncodeWire(message);
+  FromMount(calibration, message);
+  return message;
+}
+
+Decoded<CameraCalibration> Codec<CameraCalibration>::Decode(Bytes bytes) {
+  const auto message = DecodeWire<camera_calibration_t>(bytes);
+  return {ToCameraCalibration(message), Count(message.sequence)};
+}
+
+std::vector<std::uint8_t> Codec<CameraCalibration>::Encode(const CameraCalibration& calibration,
+                                                           std::int64_t sequence) {
+  return EncodeWire(FromCameraCalibration(calibration, sequence));
 }
 
 }  // namespace deixis::messages
