@@ -3,9 +3,9 @@
 #include <bot_core/images_t.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 #include <string>
 
+#include "common/messages/jpeg_check.h"
 #include "common/messages/wire.h"
 
 namespace deixis::messages {
@@ -21,7 +21,7 @@ constexpr const char* kSequenceKey = "deixis.sequence";
 
 std::string Metadata(const image_t& message, const std::string& key) {
   for (const auto& entry : message.metadata) {
-    if (entry.key == key) return {entry.value.begin(), entry.value.end()};
+    if (entry.key == key) return Text({entry.value.begin(), entry.value.end()});
   }
   return "";
 }
@@ -43,40 +43,18 @@ std::int64_t Sequence(const image_t& message) {
 
 void RequireSize(const image_t& message) {
   const std::int64_t pixels = std::int64_t{message.width} * message.height;
-  if (message.width <= 0 || message.height <= 0) throw Rejected("bad_image");
+  if (message.width <= 0 || message.height <= 0) throw Rejected("bad_image_size");
   if (pixels > kMostPixels) throw Rejected("too_large");
 }
 
-// Size that a JPEG file states in its frame header; nothing when there is none.
-std::optional<cv::Size> JpegSize(const std::vector<std::uint8_t>& jpeg) {
-  if (jpeg.size() < 4 || jpeg[0] != 0xFF || jpeg[1] != 0xD8) return std::nullopt;
-  for (std::size_t at = 2; at + 9 < jpeg.size();) {
-    if (jpeg[at] != 0xFF) return std::nullopt;
-    const int marker = jpeg[at + 1];
-    if (marker == 0xFF) {
-      ++at;
-      continue;
-    }
-    const bool is_frame =
-        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-    if (is_frame) {
-      return cv::Size(jpeg[at + 7] << 8 | jpeg[at + 8], jpeg[at + 5] << 8 | jpeg[at + 6]);
-    }
-    at += 2u + static_cast<std::size_t>(jpeg[at + 2] << 8 | jpeg[at + 3]);
-  }
-  return std::nullopt;
-}
-
-// A picture whose size is a lie is refused before memory is taken for it.
-void RequireHonestJpeg(const image_t& message) {
-  if (JpegSize(message.data) != cv::Size(message.width, message.height))
-    throw Rejected("bad_image");
+void RequireHonest(const image_t& message) {
+  RequireHonestJpeg({message.data.data(), message.data.size()}, message.width, message.height);
 }
 
 cv::Mat DecodeJpeg(const image_t& message) {
-  RequireHonestJpeg(message);
+  RequireHonest(message);
   const cv::Mat bgr = cv::imdecode(message.data, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (bgr.empty()) throw Rejected("bad_image");
+  if (bgr.empty()) throw Rejected("bad_jpeg");
   return bgr;
 }
 
@@ -84,8 +62,8 @@ cv::Mat DecodeJpeg(const image_t& message) {
 cv::Mat RawPixels(const image_t& message, int type) {
   const std::int64_t row = std::int64_t{message.width} * CV_ELEM_SIZE(type);
   const std::int64_t stride = message.row_stride == 0 ? row : message.row_stride;
-  const bool fits = stride >= row && stride * (message.height - 1) + row <= message.size;
-  if (!fits) throw Rejected("bad_image");
+  if (stride < row) throw Rejected("bad_row_stride");
+  if (stride * (message.height - 1) + row > message.size) throw Rejected("too_few_pixels");
   return {message.height, message.width, type, const_cast<std::uint8_t*>(message.data.data()),
           static_cast<std::size_t>(stride)};
 }
@@ -107,10 +85,10 @@ cv::Mat DecodePixels(const image_t& message) {
     case image_t::PIXEL_FORMAT_GRAY:
       return Converted(RawPixels(message, CV_8UC1), cv::COLOR_GRAY2BGR);
     case image_t::PIXEL_FORMAT_YUYV:
-      if (message.width % 2 != 0) throw Rejected("bad_image");
+      if (message.width % 2 != 0) throw Rejected("bad_image_size");
       return Converted(RawPixels(message, CV_8UC2), cv::COLOR_YUV2BGR_YUYV);
     default:
-      throw Rejected("bad_image");
+      throw Rejected("bad_pixel_format");
   }
 }
 
@@ -144,8 +122,8 @@ image_t Framed(Timestamp time, const std::string& camera, cv::Size size, std::in
 Decoded<EncodedImage> Codec<EncodedImage>::Decode(Bytes bytes) {
   auto message = DecodeWire<image_t>(bytes);
   RequireSize(message);
-  if (message.pixelformat != image_t::PIXEL_FORMAT_MJPEG) throw Rejected("bad_image");
-  RequireHonestJpeg(message);
+  if (message.pixelformat != image_t::PIXEL_FORMAT_MJPEG) throw Rejected("bad_pixel_format");
+  RequireHonest(message);
   const std::int64_t sequence = Sequence(message);
   return {{ToTimestamp(message.utime), Metadata(message, kCameraKey), message.width, message.height,
            std::move(message.data)},
