@@ -1,5 +1,6 @@
 #include "common/messages/camera_calibration.h"
 
+#include <Eigen/LU>
 #include <array>
 #include <utility>
 
@@ -33,10 +34,34 @@ std::string FromModel(DistortionModel wanted) {
   throw std::logic_error("distortion model without a name");
 }
 
+constexpr double kLargestCoefficient = 1e6;  // of a lens: far beyond any
+constexpr double kRotationTolerance = 1e-3;
+
+bool IsRotation(const Eigen::Matrix3d& matrix) {
+  return (matrix * matrix.transpose()).isIdentity(kRotationTolerance) && matrix.determinant() > 0.0;
+}
+
+// By lcmtypes/deixis_camera_calibration_t.lcm; OpenCV takes the shorter forms, too.
+bool HasAllCoefficients(const CameraCalibration& calibration) {
+  const std::size_t n = calibration.distortion.size();
+  switch (calibration.distortion_model) {
+    case DistortionModel::kNone:
+      return n == 0;
+    case DistortionModel::kPlumbBob:
+      return n == 4 || n == 5;
+    case DistortionModel::kRational:
+      return n == 8 || n == 12 || n == 14;
+    case DistortionModel::kFisheye:
+      return n == 4;
+  }
+  return false;
+}
+
 void RequireSensible(const CameraCalibration& calibration) {
   const std::int64_t pixels = std::int64_t{calibration.width_px} * calibration.height_px;
   const bool is_sensible = calibration.width_px > 0 && calibration.height_px > 0 &&
-                           pixels <= kMostPixels && calibration.focal_px.minCoeff() >= 1.0;
+                           pixels <= kMostPixels && calibration.focal_px.minCoeff() >= 1.0 &&
+                           HasAllCoefficients(calibration) && IsRotation(calibration.rectification);
   if (!is_sensible) throw Rejected("out_of_range");
 }
 
@@ -54,19 +79,20 @@ CameraCalibration ToCameraCalibration(const camera_calibration_t& message) {
   RequireCount(message.n_distortion, kMostDistortion);
   CameraCalibration calibration;
   calibration.time = ToTimestamp(message.utime);
-  calibration.camera = message.camera;
+  calibration.camera = Text(message.camera);
   calibration.width_px = message.width_px;
   calibration.height_px = message.height_px;
   calibration.distortion_model = ToModel(message.distortion_model);
-  for (const double value : message.distortion) calibration.distortion.push_back(Finite(value));
+  for (const double value : message.distortion)
+    calibration.distortion.push_back(Within(value, kLargestCoefficient));
   calibration.focal_px = ToPixels<2>(message.focal_px);
   calibration.principal_point_px = ToPixels<2>(message.principal_point_px);
-  const auto rectification = ToVector<9>(message.rectification);
+  const auto rectification = ToVector<9>(message.rectification, 1.0 + kRotationTolerance);
   calibration.rectification = Eigen::Map<const RowMajor3d>(rectification.data());
   calibration.is_calibrated = message.is_calibrated != 0;
   if (message.has_mount != 0) {
     const transform_t& mount = message.parent_from_camera;
-    calibration.parent_frame = message.parent_frame;
+    calibration.parent_frame = Text(message.parent_frame);
     calibration.parent_from_camera = ToTransform(mount.translation_m, mount.rotation_wxyz);
   }
   RequireSensible(calibration);

@@ -12,10 +12,14 @@ using scene::GestureOutcome;
 using scene::PointingRay;
 using scene::Side;
 
+// A unit vector and its spread.
+constexpr double kLongestDirection = 10.0;
+
 PointingRay ToRay(const gesture_t& message) {
-  return {message.frame, ToVector<3>(message.ray_origin_m), ToVector<3>(message.ray_direction),
-          ToSymmetric<3>(message.ray_origin_covariance_m2),
-          ToSymmetric<3>(message.ray_direction_covariance)};
+  return {Text(message.frame), ToMetres<3>(message.ray_origin_m),
+          ToVector<3>(message.ray_direction, kLongestDirection),
+          ToCovariance<3>(message.ray_origin_covariance_m2, kFarthest_m),
+          ToCovariance<3>(message.ray_direction_covariance, kLongestDirection)};
 }
 
 void FromRay(const PointingRay& ray, gesture_t& message) {
@@ -36,12 +40,12 @@ Decoded<Gesture> Codec<Gesture>::Decode(Bytes bytes) {
   gesture.person_id = message.person_id;
   gesture.hand_id = message.hand_id;
   gesture.side = Enumeration(message.side, Side::kRight);
-  gesture.name = message.name;
+  gesture.name = Text(message.name);
   gesture.start = ToTimestamp(message.start_utime);
   gesture.end = ToTimestamp(message.end_utime);
   gesture.outcome = Enumeration(message.outcome, GestureOutcome::kAmbiguous);
   gesture.object_id = message.object_id;
-  gesture.object_label = message.object_label;
+  gesture.object_label = Text(message.object_label);
   gesture.candidates = ToCandidates(message.candidates);
   if (message.has_ray) gesture.ray = ToRay(message);
   return {std::move(gesture), Count(message.sequence)};

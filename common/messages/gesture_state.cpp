@@ -1,6 +1,5 @@
 #include "common/messages/gesture_state.h"
 
-#include <cmath>
 #include <deixis/gesture_state_t.hpp>
 
 #include "common/messages/scene_parts.h"
@@ -15,8 +14,7 @@ using scene::Side;
 
 double Angle(double value_rad) {
   constexpr double kLargest_rad = 100.0;  // Directions need not lie within one turn.
-  if (std::abs(Finite(value_rad)) > kLargest_rad) throw Rejected("out_of_range");
-  return value_rad;
+  return Within(value_rad, kLargest_rad);
 }
 
 GestureHypothesis ToHypothesis(const gesture_hypothesis_t& message) {
@@ -24,7 +22,7 @@ GestureHypothesis ToHypothesis(const gesture_hypothesis_t& message) {
   hypothesis.hand_id = message.hand_id;
   hypothesis.person_id = message.person_id;
   hypothesis.side = Enumeration(message.side, Side::kRight);
-  hypothesis.model = message.model;
+  hypothesis.model = Text(message.model);
   hypothesis.phase = Probability(message.phase);
   hypothesis.end_probability = Probability(message.end_probability);
   if (message.has_context) {
@@ -63,7 +61,7 @@ gesture_hypothesis_t FromHypothesis(const GestureHypothesis& hypothesis) {
 Decoded<GestureState> Codec<GestureState>::Decode(Bytes bytes) {
   const auto message = DecodeWire<gesture_state_t>(bytes);
   RequireCount(message.n_hypotheses, kMostHands);
-  GestureState state{ToTimestamp(message.utime), message.camera, message.frame, {}};
+  GestureState state{ToTimestamp(message.utime), Text(message.camera), Text(message.frame), {}};
   for (const auto& hypothesis : message.hypotheses) {
     state.hypotheses.push_back(ToHypothesis(hypothesis));
   }

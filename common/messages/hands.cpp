@@ -23,13 +23,13 @@ Hand ToHand(const hand_t& message) {
   hand.state = Enumeration(message.state, HandState::kOccluded);
   hand.centre_px = ToPixels<2>(message.centre_px);
   hand.velocity_px_per_s = ToPixels<2>(message.velocity_px_per_s);
-  hand.covariance = ToPixelCovariance<4>(message.covariance);
+  hand.covariance = ToCovariance<4>(message.covariance, kFarthest_px);
   hand.box = ToBox(message.box_px);
   if (message.has_fingertip) hand.fingertip_px = ToPixels<2>(message.fingertip_px);
   if (message.has_position) {
     hand.position =
-        HandPosition{ToVector<3>(message.position_m), ToVector<3>(message.velocity_m_per_s),
-                     ToSymmetric<3>(message.position_covariance_m2)};
+        HandPosition{ToMetres<3>(message.position_m), ToMetres<3>(message.velocity_m_per_s),
+                     ToCovariance<3>(message.position_covariance_m2, kFarthest_m)};
   }
   return hand;
 }
@@ -62,7 +62,7 @@ hand_t FromHand(const Hand& hand) {
 Decoded<Hands> Codec<Hands>::Decode(Bytes bytes) {
   const auto message = DecodeWire<hand_tracks_t>(bytes);
   RequireCount(message.n_hands, kMostHands);
-  Hands hands{ToTimestamp(message.utime), message.camera, message.frame, {}};
+  Hands hands{ToTimestamp(message.utime), Text(message.camera), Text(message.frame), {}};
   for (const hand_t& hand : message.hands) hands.hands.push_back(ToHand(hand));
   return {std::move(hands), Count(message.sequence)};
 }

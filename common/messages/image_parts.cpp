@@ -2,9 +2,9 @@
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 #include <utility>
 
+#include "common/messages/jpeg_check.h"
 #include "common/messages/wire.h"
 
 namespace deixis::messages {
@@ -19,7 +19,7 @@ constexpr std::int32_t kMostImages = 16;
 
 std::string Metadata(const image_t& message, const std::string& key) {
   for (const auto& entry : message.metadata) {
-    if (entry.key == key) return {entry.value.begin(), entry.value.end()};
+    if (entry.key == key) return Text({entry.value.begin(), entry.value.end()});
   }
   return "";
 }
@@ -30,26 +30,6 @@ bot_core::image_metadata_t Entry(const std::string& key, const std::string& valu
   entry.value.assign(value.begin(), value.end());
   entry.n = static_cast<std::int32_t>(entry.value.size());
   return entry;
-}
-
-// Size that a JPEG file states in its frame header; nothing when there is none.
-std::optional<cv::Size> JpegSize(const std::vector<std::uint8_t>& jpeg) {
-  if (jpeg.size() < 4 || jpeg[0] != 0xFF || jpeg[1] != 0xD8) return std::nullopt;
-  for (std::size_t at = 2; at + 9 < jpeg.size();) {
-    if (jpeg[at] != 0xFF) return std::nullopt;
-    const int marker = jpeg[at + 1];
-    if (marker == 0xFF) {
-      ++at;
-      continue;
-    }
-    const bool is_frame =
-        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-    if (is_frame) {
-      return cv::Size(jpeg[at + 7] << 8 | jpeg[at + 8], jpeg[at + 5] << 8 | jpeg[at + 6]);
-    }
-    at += 2u + static_cast<std::size_t>(jpeg[at + 2] << 8 | jpeg[at + 3]);
-  }
-  return std::nullopt;
 }
 
 cv::Size SizeOf(const image_t& message) { return {message.width, message.height}; }
@@ -69,28 +49,24 @@ cv::Mat DecodePixels(const image_t& message) {
     case image_t::PIXEL_FORMAT_GRAY:
       return Converted(raw(CV_8UC1), cv::COLOR_GRAY2BGR);
     case image_t::PIXEL_FORMAT_YUYV:
-      if (message.width % 2 != 0) throw Rejected("bad_image");
+      if (message.width % 2 != 0) throw Rejected("bad_image_size");
       return Converted(raw(CV_8UC2), cv::COLOR_YUV2BGR_YUYV);
     default:
-      throw Rejected("bad_image");
+      throw Rejected("bad_pixel_format");
   }
 }
 
 }  // namespace
 
 void RequirePictureSize(std::int64_t width_px, std::int64_t height_px) {
-  if (width_px <= 0 || height_px <= 0) throw Rejected("bad_image");
+  if (width_px <= 0 || height_px <= 0) throw Rejected("bad_image_size");
   if (width_px * height_px > kMostPixels) throw Rejected("too_large");
 }
 
-void RequireHonestJpeg(const std::vector<std::uint8_t>& jpeg, cv::Size size) {
-  if (JpegSize(jpeg) != size) throw Rejected("bad_image");
-}
-
 cv::Mat DecodeJpeg(const std::vector<std::uint8_t>& jpeg, cv::Size size) {
-  RequireHonestJpeg(jpeg, size);
+  RequireHonestJpeg({jpeg.data(), jpeg.size()}, size.width, size.height);
   const cv::Mat bgr = cv::imdecode(jpeg, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (bgr.empty()) throw Rejected("bad_image");
+  if (bgr.empty()) throw Rejected("bad_jpeg");
   return bgr;
 }
 
@@ -99,8 +75,8 @@ cv::Mat RawPixels(const std::vector<std::uint8_t>& data, cv::Size size, int type
   const std::int64_t row = std::int64_t{size.width} * CV_ELEM_SIZE(type);
   const std::int64_t step = stride == 0 ? row : stride;
   const auto bytes = static_cast<std::int64_t>(data.size());
-  const bool fits = step >= row && step * (size.height - 1) + row <= bytes;
-  if (!fits) throw Rejected("bad_image");
+  if (step < row) throw Rejected("bad_row_stride");
+  if (step * (size.height - 1) + row > bytes) throw Rejected("too_few_pixels");
   return {size, type, const_cast<std::uint8_t*>(data.data()), static_cast<std::size_t>(step)};
 }
 
@@ -126,8 +102,8 @@ image_t FromImage(const images::Image& image, std::int64_t sequence) {
 
 images::EncodedImage ToEncodedImage(image_t message) {
   RequirePictureSize(message.width, message.height);
-  if (message.pixelformat != image_t::PIXEL_FORMAT_MJPEG) throw Rejected("bad_image");
-  RequireHonestJpeg(message.data, SizeOf(message));
+  if (message.pixelformat != image_t::PIXEL_FORMAT_MJPEG) throw Rejected("bad_pixel_format");
+  RequireHonestJpeg({message.data.data(), message.data.size()}, message.width, message.height);
   return {ToTimestamp(message.utime), Metadata(message, kCameraKey), message.width, message.height,
           std::move(message.data)};
 }

@@ -13,14 +13,10 @@
 
 namespace deixis::messages {
 
-/// Throws Rejected("bad_image"/"too_large") unless it is a size that a picture may have.
+/// Throws Rejected("bad_image_size" or "too_large") unless it is a size that a picture may have.
 void RequirePictureSize(std::int64_t width_px, std::int64_t height_px);
 
-/// Throws Rejected("bad_image") unless `jpeg` is a JPEG file that states this size: before memory
-/// is taken for it.
-void RequireHonestJpeg(const std::vector<std::uint8_t>& jpeg, cv::Size size);
-
-/// CV_8UC3, blue green red.
+/// CV_8UC3, blue green red; what jpeg_check.h refuses is not decoded.
 cv::Mat DecodeJpeg(const std::vector<std::uint8_t>& jpeg, cv::Size size);
 
 /// Pixels as they lie in a message, `type` being OpenCV's, `stride` bytes from row to row (0 = no

@@ -23,15 +23,15 @@ void RequireVisible(const std::optional<scene::Box>& face) {
 Object ToObject(const object_t& message) {
   Object object;
   object.id = message.id;
-  object.label = message.label;
+  object.label = Text(message.label);
   object.kind = Enumeration(message.kind, ObjectKind::kPlace);
   object.person_id = message.person_id;
   if (message.has_box) object.box = ToBox(message.box_px);
   if (object.kind == ObjectKind::kFace) RequireVisible(object.box);
   if (message.has_position) {
-    object.position = ObjectPosition{ToVector<3>(message.position_m),
-                                     ToSymmetric<3>(message.position_covariance_m2),
-                                     ToVector<3>(message.extent_m)};
+    object.position = ObjectPosition{ToMetres<3>(message.position_m),
+                                     ToCovariance<3>(message.position_covariance_m2, kFarthest_m),
+                                     ToMetres<3>(message.extent_m)};
   }
   object.score = Probability(message.score);
   object.visibility = Enumeration(message.visibility, Visibility::kRemembered);
@@ -64,7 +64,11 @@ object_t FromObject(const Object& object) {
 Decoded<Objects> Codec<Objects>::Decode(Bytes bytes) {
   const auto message = DecodeWire<objects_t>(bytes);
   RequireCount(message.n_objects, kMostObjects);
-  Objects objects{ToTimestamp(message.utime), message.camera, message.frame, message.source, {}};
+  Objects objects{ToTimestamp(message.utime),
+                  Text(message.camera),
+                  Text(message.frame),
+                  Text(message.source),
+                  {}};
   for (const object_t& object : message.objects) objects.objects.push_back(ToObject(object));
   return {std::move(objects), Count(message.sequence)};
 }

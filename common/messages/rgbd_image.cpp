@@ -34,17 +34,17 @@ cv::Mat ToColour(const image_msg_t& message) {
     case image_msg_t::VIDEO_RGB_JPEG:
       return DecodeJpeg(message.image_data, size);
     case image_msg_t::VIDEO_BAYER:  // Green red / blue green, which OpenCV names by its second row.
-      if (size.width < 3 || size.height < 3) throw Rejected("bad_image");
+      if (size.width < 3 || size.height < 3) throw Rejected("bad_image_size");
       return converted(CV_8UC1, cv::COLOR_BayerGB2BGR);
     case image_msg_t::VIDEO_IR_8BIT:
       return converted(CV_8UC1, cv::COLOR_GRAY2BGR);
     case image_msg_t::VIDEO_YUV_RAW:
-      if (message.width % 2 != 0) throw Rejected("bad_image");
+      if (message.width % 2 != 0) throw Rejected("bad_image_size");
       return converted(CV_8UC2, cv::COLOR_YUV2BGR_UYVY);
     case image_msg_t::VIDEO_NONE:
       throw Rejected("no_colour_image");
     default:
-      throw Rejected("unsupported_format");
+      throw Rejected("bad_pixel_format");
   }
 }
 
@@ -74,7 +74,7 @@ cv::Mat DepthRows(const depth_msg_t& message) {
   if (message.compression == depth_msg_t::COMPRESSION_NONE) {
     return RawPixels(data, size, CV_16UC1, 0).clone();
   }
-  if (message.compression != depth_msg_t::COMPRESSION_ZLIB) throw Rejected("unsupported_format");
+  if (message.compression != depth_msg_t::COMPRESSION_ZLIB) throw Rejected("bad_pixel_format");
   const auto bytes = static_cast<std::size_t>(size.area()) * 2;
   return RawPixels(InflateExactly({data.data(), data.size()}, bytes), size, CV_16UC1, 0).clone();
 }
@@ -89,7 +89,7 @@ cv::Mat ToDepth(const depth_msg_t& message) {
     case depth_msg_t::DEPTH_NONE:
       throw Rejected("no_depth_image");
     default:
-      throw Rejected("unsupported_format");
+      throw Rejected("bad_pixel_format");
   }
 }
 

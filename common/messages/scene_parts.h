@@ -23,7 +23,8 @@ inline std::vector<scene::Candidate> ToCandidates(const std::vector<candidate_t>
   RequireCount(static_cast<std::int64_t>(messages.size()), kMostCandidates);
   std::vector<scene::Candidate> candidates;
   for (const candidate_t& message : messages) {
-    candidates.push_back({message.object_id, message.label, Probability(message.probability)});
+    candidates.push_back(
+        {message.object_id, Text(message.label), Probability(message.probability)});
   }
   return candidates;
 }

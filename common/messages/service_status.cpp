@@ -8,14 +8,16 @@ namespace deixis::messages {
 namespace {
 
 ChannelStatistics ToChannel(const channel_status_t& message) {
+  RequireCount(message.n_drops, kMostReasons);
   ChannelStatistics channel;
-  channel.channel = message.name;
+  channel.channel = Text(message.name);
   channel.direction = Enumeration(message.direction, Direction::kOut);
-  channel.messages = message.messages;
+  channel.messages = Count(message.messages);
   channel.rate_hz = Finite(message.rate_hz);
-  channel.gaps = message.gaps;
-  channel.skipped = message.skipped;
-  for (const drop_count_t& drop : message.drops) channel.drops[drop.reason] = drop.count;
+  channel.gaps = Count(message.gaps);
+  channel.skipped = Count(message.skipped);
+  for (const drop_count_t& drop : message.drops)
+    channel.drops[Text(drop.reason)] = Count(drop.count);
   return channel;
 }
 
@@ -44,13 +46,13 @@ Decoded<ServiceStatus> Codec<ServiceStatus>::Decode(Bytes bytes) {
   RequireCount(message.n_channels, kMostChannels);
   ServiceStatus status;
   status.time = ToTimestamp(message.utime);
-  status.service = message.service;
-  status.instance = message.instance;
-  status.host = message.host;
+  status.service = Text(message.service);
+  status.instance = Text(message.instance);
+  status.host = Text(message.host);
   status.pid = message.pid;
-  status.version = message.version;
+  status.version = Text(message.version);
   status.state = Enumeration(message.state, ServiceState::kStopping);
-  status.text = message.text;
+  status.text = Text(message.text);
   for (const auto& channel : message.channels) status.channels.push_back(ToChannel(channel));
   status.processing_ms_p50 = Finite(message.processing_ms_p50);
   status.processing_ms_p99 = Finite(message.processing_ms_p99);

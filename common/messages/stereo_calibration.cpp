@@ -25,7 +25,7 @@ Decoded<StereoCalibration> Codec<StereoCalibration>::Decode(Bytes bytes) {
   const auto message = DecodeWire<stereo_calibration_t>(bytes);
   StereoCalibration calibration;
   calibration.time = ToTimestamp(message.utime);
-  calibration.camera = message.camera;
+  calibration.camera = Text(message.camera);
   calibration.left = ToCameraCalibration(message.left);
   calibration.right = ToCameraCalibration(message.right);
   calibration.rectified = ToCameraCalibration(message.rectified);

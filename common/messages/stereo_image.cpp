@@ -33,7 +33,7 @@ cv::Mat FromRows(const std::vector<std::uint8_t>& rows, cv::Size size, std::int6
 cv::Mat InflatedDepth(const image_t& message) {
   const auto row = static_cast<std::size_t>(message.width) * 2;
   if (message.row_stride != 0 && static_cast<std::size_t>(message.row_stride) != row) {
-    throw Rejected("bad_depth");
+    throw Rejected("bad_row_stride");
   }
   const std::size_t expected = row * static_cast<std::size_t>(message.height);
   const cv::Size size(message.width, message.height);

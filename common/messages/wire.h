@@ -5,13 +5,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "common/messages/codec.h"
+#include "common/messages/utf8.h"
+#include "common/messages/wire_check.h"
 
 namespace deixis::messages {
 
@@ -20,10 +21,14 @@ inline constexpr std::int32_t kMostObjects = 4096;
 inline constexpr std::int32_t kMostHands = 256;
 inline constexpr std::int32_t kMostCandidates = 4096;
 inline constexpr std::int32_t kMostChannels = 1024;
+inline constexpr std::int32_t kMostReasons = 256;
 inline constexpr std::int32_t kMostDistortion = 14;
+inline constexpr std::size_t kLongestText = 1024;  ///< Bytes.
 inline constexpr std::int64_t kMostPixels = 64 * 1024 * 1024;
 /// Of a coordinate, size or speed in the image: far beyond any picture, yet safe as an int.
 inline constexpr double kFarthest_px = 1e6;
+/// Of a coordinate, size or speed in space, metres (per second): safe to square and add up.
+inline constexpr double kFarthest_m = 1e6;
 /// Of times and sequence numbers: their differences cannot overflow (year 38,500).
 inline constexpr std::int64_t kLargestCount = std::int64_t{1} << 60;
 
@@ -35,17 +40,19 @@ inline std::int64_t Fingerprint(Bytes bytes) {
   return static_cast<std::int64_t>(value);
 }
 
-/// Decodes the whole of `bytes` as a Message, or throws Rejected.
+/// Decodes the whole of `bytes` as a Message, or throws Rejected. The only caller of the generated
+/// decode(), which believes every length that it reads.
 template <typename Message>
 Message DecodeWire(Bytes bytes) {
   if (Fingerprint(bytes) != Message::getHash()) throw Rejected("wrong_type");
-  if (bytes.size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    throw Rejected("too_large");
-  }
+  const WireFault fault = CheckWire(bytes);
+  if (fault != WireFault::kNone) throw Rejected(Reason(fault));
   Message message{};
-  const int used = message.decode(bytes.data, 0, static_cast<int>(bytes.size));
-  if (used < 0) throw Rejected("truncated");
-  if (static_cast<std::size_t>(used) != bytes.size) throw Rejected("trailing_bytes");
+  const int size = static_cast<int>(bytes.size);
+  if (message.decode(bytes.data, 0, size) != size) {
+    throw std::logic_error(
+        "a message that passed the check of its bytes does not decode from them");
+  }
   return message;
 }
 
@@ -73,6 +80,14 @@ inline std::int64_t Count(std::int64_t value) {
   return value;
 }
 
+/// A name, label or sentence. Results repeat them, so what came in must be fit to go out.
+inline const std::string& Text(const std::string& text) {
+  if (text.size() > kLongestText) throw Rejected("text_too_long");
+  const Bytes bytes{reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+  if (!IsText(bytes)) throw Rejected("bad_string");
+  return text;
+}
+
 inline Timestamp ToTimestamp(std::int64_t utime) { return {Count(utime)}; }
 
 /// A number as an enumeration whose last value is `last`.
@@ -87,24 +102,29 @@ std::int8_t Number(Enum value) {
   return static_cast<std::int8_t>(value);
 }
 
-template <int N>
-Eigen::Matrix<double, N, 1> ToVector(const double (&values)[N]) {
-  Eigen::Matrix<double, N, 1> vector;
-  for (int i = 0; i < N; ++i) vector[i] = Finite(values[i]);
-  return vector;
+inline double Within(double value, double largest) {
+  if (std::abs(Finite(value)) > largest) throw Rejected("out_of_range");
+  return value;
 }
 
 /// A length or coordinate in the image.
-inline double Pixels(double value) {
-  if (std::abs(Finite(value)) > kFarthest_px) throw Rejected("out_of_range");
-  return value;
+inline double Pixels(double value) { return Within(value, kFarthest_px); }
+
+template <int N>
+Eigen::Matrix<double, N, 1> ToVector(const double (&values)[N], double largest = kFarthest_m) {
+  Eigen::Matrix<double, N, 1> vector;
+  for (int i = 0; i < N; ++i) vector[i] = Within(values[i], largest);
+  return vector;
 }
 
 template <int N>
 Eigen::Matrix<double, N, 1> ToPixels(const double (&values)[N]) {
-  Eigen::Matrix<double, N, 1> vector;
-  for (int i = 0; i < N; ++i) vector[i] = Pixels(values[i]);
-  return vector;
+  return ToVector<N>(values, kFarthest_px);
+}
+
+template <int N>
+Eigen::Matrix<double, N, 1> ToMetres(const double (&values)[N]) {
+  return ToVector<N>(values, kFarthest_m);
 }
 
 /// Going out: a number that is not finite is our own bug.
@@ -114,24 +134,17 @@ void FromVector(const Eigen::MatrixBase<Derived>& vector, double (&values)[N]) {
   for (int i = 0; i < N; ++i) values[i] = vector[i];
 }
 
-/// Symmetric N x N matrix from its lower triangle, row by row.
+/// Covariance of N values that are no larger than `largest`, from its lower triangle, row by row.
 template <int N, int M>
-Eigen::Matrix<double, N, N> ToSymmetric(const double (&triangle)[M]) {
+Eigen::Matrix<double, N, N> ToCovariance(const double (&triangle)[M], double largest) {
   static_assert(M == N * (N + 1) / 2);
   Eigen::Matrix<double, N, N> matrix;
   for (int row = 0, i = 0; row < N; ++row) {
     for (int column = 0; column <= row; ++column, ++i) {
-      matrix(row, column) = matrix(column, row) = Finite(triangle[i]);
+      matrix(row, column) = matrix(column, row) = Within(triangle[i], largest * largest);
     }
   }
-  return matrix;
-}
-
-/// A covariance in the image.
-template <int N, int M>
-Eigen::Matrix<double, N, N> ToPixelCovariance(const double (&triangle)[M]) {
-  const auto matrix = ToSymmetric<N>(triangle);
-  if (matrix.cwiseAbs().maxCoeff() > kFarthest_px * kFarthest_px) throw Rejected("out_of_range");
+  if (matrix.diagonal().minCoeff() < 0.0) throw Rejected("out_of_range");
   return matrix;
 }
 

@@ -18,7 +18,23 @@ function(deixis_message_library)
   deixis_cpp_messages(${ARG_NAME} "${files}" "${types}")
   deixis_python_messages(${ARG_NAME} "${files}" "${types}")
   deixis_java_messages(${ARG_NAME} "${files}" "${types}")
+  set_target_properties(deixis_${ARG_NAME} PROPERTIES DEIXIS_LCM_FILES "${files}")
   install(FILES ${files} DESTINATION ${CMAKE_INSTALL_DATADIR}/deixis/lcmtypes)
+endfunction()
+
+# deixis_wire_layouts(sources deixis_lcmtypes): the C++ file, made in this folder's part of the build, with the
+# table that common/messages checks the types of that library by.
+function(deixis_wire_layouts out library)
+  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
+  get_target_property(files ${library} DEIXIS_LCM_FILES)
+  set(root "${CMAKE_SOURCE_DIR}/scripts/python")
+  file(GLOB generator CONFIGURE_DEPENDS "${root}/deixis_schema/*.py")
+  set(table "${CMAKE_CURRENT_BINARY_DIR}/wire_layouts.cpp")
+  add_custom_command(OUTPUT "${table}"
+    COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${root}" PYTHONDONTWRITEBYTECODE=1
+            "${Python3_EXECUTABLE}" -m deixis_schema.wire_layouts --output "${table}" ${files}
+    DEPENDS ${files} ${generator} COMMENT "Wire layouts" VERBATIM)
+  set(${out} "${table}" PARENT_SCOPE)
 endfunction()
 
 # <package>/<struct> of each file, in the order of the files.

@@ -1,5 +1,5 @@
 # The functions that build everything: deixis_library, deixis_service, deixis_program, deixis_test,
-# deixis_benchmark. deixis_message_library stands in DeixisMessages.cmake.
+# deixis_benchmark, deixis_fuzzer. deixis_message_library stands in DeixisMessages.cmake.
 
 # deixis_library(NAME skin SRCS a.cpp KERNEL_SRCS k.cpp LINK_LIBS deixis::images PRIVATE_LIBS yaml-cpp)
 # makes target deixis_<NAME> with alias deixis::<NAME>. A library without sources is header-only.
@@ -70,4 +70,14 @@ function(deixis_benchmark)
   find_package(benchmark REQUIRED)
   add_executable(${ARG_NAME} ${ARG_SRCS})
   target_link_libraries(${ARG_NAME} PRIVATE deixis_flags ${ARG_LINK_LIBS} benchmark::benchmark_main)
+endfunction()
+
+# deixis_fuzzer(NAME messages_fuzzer SRCS ... LINK_LIBS ...): a libFuzzer target in <build>/fuzz.
+function(deixis_fuzzer)
+  cmake_parse_arguments(ARG "" "NAME" "SRCS;LINK_LIBS" ${ARGN})
+  add_executable(${ARG_NAME} ${ARG_SRCS})
+  target_link_libraries(${ARG_NAME} PRIVATE deixis_flags ${ARG_LINK_LIBS})
+  target_compile_definitions(${ARG_NAME} PRIVATE DEIXIS_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  target_link_options(${ARG_NAME} PRIVATE -fsanitize=fuzzer)
+  set_target_properties(${ARG_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/fuzz")
 endfunction()

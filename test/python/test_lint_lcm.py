@@ -72,6 +72,7 @@ def test_accepts_the_good_sample(lint):
     ("weights_kg[n_weights]", "weights_kg[n_parts]", 20, "sized by 'n_parts', which is no field declared before"),
     ("weights_kg[n_weights]", "masses_kg[n_weights]", 20, "'n_weights' must be n_<array>"),
     ("n_weights", "count", 20, "the size must be named n_<array>"),
+    ("weights_kg[n_weights]", "weights_kg[n_weights][n_weights]", 20, "varies in two dimensions"),
     ("int32_t n_weights", "double n_weights", 20, "sized by 'n_weights', which is no integer"),
     ("  // Weights, k", "  // Colour.\n  int8_t colour;\n  // Weights, k", 22, "must stand just before array"),
     ("struct thing_t", "struct thing2_t", 4, "must be in file deixis_thing2_t.lcm"),

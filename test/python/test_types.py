@@ -1,24 +1,16 @@
 """The generated Python types: the fingerprints of the checked-in table, and every type there and back."""
 import importlib
-import importlib.machinery
-import importlib.util
 import math
 
 import pytest
 from conftest import REPOSITORY
 
-
-def load_lint():
-    loader = importlib.machinery.SourceFileLoader("lint_lcm", str(REPOSITORY / "scripts" / "lint_lcm"))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("lint_lcm", loader))
-    loader.exec_module(module)
-    return module
+from deixis_schema.lcm_file import Parser
 
 
 def read_structs():
-    parser = load_lint().Parser
     return {struct.full_name: struct
-            for path in sorted((REPOSITORY / "lcmtypes").glob("*.lcm")) for struct in parser(path).structs()}
+            for path in sorted((REPOSITORY / "lcmtypes").glob("*.lcm")) for struct in Parser(path).structs()}
 
 
 STRUCTS = read_structs()

@@ -228,14 +228,14 @@ TEST(HostileImage, GoodOnesAreAccepted) {
 TEST(HostileImage, JpegOfAnotherSizeIsRejected) {
   auto message = GoodJpeg();
   message.width = 16;
-  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "bad_image");
-  EXPECT_EQ(ReasonFor<images::EncodedImage>(Encoded(message)), "bad_image");
+  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "jpeg_size");
+  EXPECT_EQ(ReasonFor<images::EncodedImage>(Encoded(message)), "jpeg_size");
 }
 
 TEST(HostileImage, GarbageInsteadOfJpegIsRejected) {
   auto message = GoodJpeg();
   for (auto& byte : message.data) byte = 0x5A;
-  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "bad_image");
+  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "bad_jpeg");
 }
 
 TEST(HostileImage, JpegThatClaimsGigabytesIsRejectedByItsHeader) {
@@ -247,25 +247,25 @@ TEST(HostileImage, JpegThatClaimsGigabytesIsRejectedByItsHeader) {
 TEST(HostileImage, EmptyPictureIsRejected) {
   auto message = GoodGrey();
   message.height = 0;
-  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "bad_image");
+  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "bad_image_size");
 }
 
 TEST(HostileImage, FewerBytesThanPixelsAreRejected) {
   auto message = GoodGrey();
   message.height = 3;
-  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "bad_image");
+  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "too_few_pixels");
 }
 
 TEST(HostileImage, RowsThatOverlapAreRejected) {
   auto message = GoodGrey();
   message.row_stride = 3;
-  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "bad_image");
+  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "bad_row_stride");
 }
 
 TEST(HostileImage, UnknownPixelFormatIsRejected) {
   auto message = GoodGrey();
   message.pixelformat = image_t::PIXEL_FORMAT_INVALID;
-  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "bad_image");
+  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "bad_pixel_format");
 }
 
 TEST(StereoImage, LeftPictureIsTaken) {

@@ -192,18 +192,18 @@ TEST(HostileStereoImage, DamagedDepthIsRejected) {
 }
 
 TEST(HostileStereoImage, DepthWhoseRowsHaveGapsIsRejected) {
-  EXPECT_EQ(ReasonOfStereo([](images_t& m) { m.images[1].row_stride = 20; }), "bad_depth");
+  EXPECT_EQ(ReasonOfStereo([](images_t& m) { m.images[1].row_stride = 20; }), "bad_row_stride");
 }
 
 TEST(HostileStereoImage, AbsurdSizesAreRejectedBeforeMemoryIsTaken) {
   EXPECT_EQ(
       ReasonOfStereo([](images_t& m) { m.images[1].width = m.images[1].height = 2'000'000'000; }),
       "too_large");
-  EXPECT_EQ(ReasonOfStereo([](images_t& m) { m.images[1].height = 0; }), "bad_image");
+  EXPECT_EQ(ReasonOfStereo([](images_t& m) { m.images[1].height = 0; }), "bad_image_size");
 }
 
 TEST(HostileStereoImage, APictureThatLiesAboutItsSizeIsRejected) {
-  EXPECT_EQ(ReasonOfStereo([](images_t& m) { m.images[0].width = 8000; }), "bad_image");
+  EXPECT_EQ(ReasonOfStereo([](images_t& m) { m.images[0].width = 8000; }), "jpeg_size");
 }
 
 TEST(StereoPairMessage, GoesThereAndBackRaw) {
@@ -293,8 +293,8 @@ TEST(RgbdMessage, TakesTheSensorsOwn11Bits) {
 }
 
 TEST(HostileRgbd, NegativeSizesAreRejected) {
-  EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.depth.width = -8; }), "bad_image");
-  EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.image.height = -1; }), "bad_image");
+  EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.depth.width = -8; }), "bad_image_size");
+  EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.image.height = -1; }), "bad_image_size");
 }
 
 TEST(HostileRgbd, MissingPicturesAreNamed) {
@@ -307,13 +307,13 @@ TEST(HostileRgbd, MissingPicturesAreNamed) {
 }
 
 TEST(HostileRgbd, FormatsThatNobodyKnowsAreNamed) {
-  EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.depth.compression = 9; }), "unsupported_format");
+  EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.depth.compression = 9; }), "bad_pixel_format");
   EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.image.image_data_format = 55; }),
-            "unsupported_format");
+            "bad_pixel_format");
 }
 
 TEST(HostileRgbd, PixelsThatAreNotThereAreNotRead) {
-  EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.image.width = 17; }), "bad_image");
+  EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.image.width = 17; }), "too_few_pixels");
   EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.depth.height = 7; }), "zlib_too_short");
 }
 
