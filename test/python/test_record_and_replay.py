@@ -168,6 +168,14 @@ def test_says_when_the_folder_cannot_be_written(url: str) -> None:
     assert "/proc/x.lcmlog cannot be written" in result.stderr
 
 
+def test_the_logger_ends_when_the_recording_is_killed(url: str, tmp_path: Path) -> None:
+    output = tmp_path / "x.lcmlog"
+    with talking(url), recording(url, output) as record:
+        assert becomes_true(lambda: bool(loggers_of(output)))
+        record.kill()
+        assert becomes_true(lambda: not loggers_of(output))
+
+
 def test_says_when_the_disk_is_full_and_keeps_what_there_was_before(url: str, log: Path) -> None:
     logger = log.parent / "bin" / "lcm-logger"
     logger.parent.mkdir()

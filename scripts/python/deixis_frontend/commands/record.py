@@ -13,6 +13,7 @@ from pathlib import Path
 from deixis_frontend import layout as layouts
 from deixis_frontend import lcm_url
 from deixis_frontend.channel_patterns import channel_pattern
+from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
 from deixis_frontend.interrupts import end_as_by_ctrl_c
 from deixis_frontend.lcm_tools import find_logger, url_option
@@ -46,7 +47,8 @@ def run(arguments: argparse.Namespace) -> int:
     print(f"recording to {output}" + ("" if arguments.seconds else "; Ctrl-C stops"), flush=True)
     end_as_by_ctrl_c(signal.SIGTERM, signal.SIGHUP)
     logger = subprocess.Popen([*command, str(file.path)], stdout=subprocess.DEVNULL,
-                              stderr=subprocess.PIPE, text=True, start_new_session=True)
+                              stderr=subprocess.PIPE, text=True, start_new_session=True,
+                              preexec_fn=end_with_parent(signal.SIGINT))
     _wait(logger, arguments.seconds, file)
     return _conclude(logger, file)
 

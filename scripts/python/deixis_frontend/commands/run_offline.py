@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 from deixis_frontend import layout as layouts
+from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
 from deixis_frontend.interrupts import INTERRUPTED, end_as_by_ctrl_c
 from deixis_frontend.lcm_tools import require_log
@@ -53,7 +54,8 @@ def _more_options(arguments: argparse.Namespace) -> list[str]:
 
 
 def _run(command: list[str], layout: layouts.Layout) -> int:
-    process = subprocess.Popen(command, env=layout.environment())
+    process = subprocess.Popen(command, env=layout.environment(),
+                               preexec_fn=end_with_parent(signal.SIGTERM))
     try:
         return process.wait()
     except KeyboardInterrupt:
