@@ -111,7 +111,8 @@ struct Bus::Implementation {
       if (!times.HasJumped(now)) return "";
       return "the time on " + channel + " jumped by " +
              std::to_string(std::llround(times.last_jump_s())) + " s (" +
-             std::to_string(times.jumps()) + " jumps): check the clock of its publisher";
+             std::to_string(times.jumps()) +
+             " jumps): check its publisher's clock, unless a log is played";
     }
   };
   struct Output {
