@@ -315,6 +315,20 @@ def test_an_interrupted_offline_run_leaves_nothing_behind_and_says_so(
     assert not list(log.parent.glob("out*"))
 
 
+def test_an_interrupt_that_comes_while_the_child_is_started_is_heeded(
+        url: str, log: Path, offline: Offline) -> None:
+    command = [sys.executable, "-m", "deixis_frontend", "run-offline", str(log),
+               str(log.with_name("out"))]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path),
+                   **offline('kill -INT $PPID; echo some >"$2"; exec sleep 60')}
+    for _ in range(3):
+        done = subprocess.run(command, env=environment, text=True, capture_output=True, check=False,
+                              timeout=20, preexec_fn=heed_interrupts)
+        assert done.returncode == 130
+        assert "was not written" in done.stderr
+        assert not list(log.parent.glob("out*"))
+
+
 def test_without_multicast_the_cure_is_named(url: str, log: Path,
                                              without_multicast: list[str]) -> None:
     for arguments in (["record", "--seconds", 1], ["replay", log]):

@@ -7,6 +7,8 @@ import os
 import signal
 from collections.abc import Callable
 
+from deixis_frontend.interrupts import ALL
+
 _PR_SET_PDEATHSIG = 1
 
 
@@ -19,6 +21,7 @@ def end_with_parent(number: signal.Signals) -> Callable[[], None]:
     parent = os.getpid()
 
     def prepare() -> None:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, ALL)
         libc.prctl(_PR_SET_PDEATHSIG, int(number), 0, 0, 0)
         if os.getppid() != parent:  # It has died before this.
             os.kill(os.getpid(), number)
