@@ -20,6 +20,7 @@ constexpr double kStalled_s = 3.0;
 
 struct LiveSource::Shared {
   Capture capture;
+  std::function<Timestamp()> clock;
 
   mutable std::mutex mutex;
   std::condition_variable changed;
@@ -27,7 +28,7 @@ struct LiveSource::Shared {
   std::string trouble;
   std::int64_t skipped = 0;
   std::int64_t corrupt = 0;
-  Timestamp last_picture;
+  Timestamp heard;  // By the monotonic clock.
   bool must_stop = false;
   bool has_ended = false;
 
@@ -52,7 +53,7 @@ struct LiveSource::Shared {
   }
 
   void Keep(LivePicture picture) {
-    last_picture = picture.time;
+    heard = clock();
     if (picture.bgr.empty()) {
       ++corrupt;
       return;
@@ -79,15 +80,16 @@ struct LiveSource::Shared {
   }
 };
 
-LiveSource::LiveSource(Capture capture, std::function<Timestamp()> wall_clock)
-    : shared_(std::make_shared<Shared>()), wall_clock_(std::move(wall_clock)) {
+LiveSource::LiveSource(Capture capture, std::function<Timestamp()> monotonic_clock)
+    : shared_(std::make_shared<Shared>()) {
   shared_->capture = std::move(capture);
+  shared_->clock = std::move(monotonic_clock);
   ReadLive read = shared_->capture.open();
   if (!read) {
     throw config::ConfigError(shared_->capture.name + " cannot be opened; " +
                               shared_->capture.cure);
   }
-  shared_->last_picture = wall_clock_();
+  shared_->heard = shared_->clock();
   std::thread([shared = shared_, read = std::move(read)]() mutable {
     shared->Run(std::move(read));
   }).detach();
@@ -111,14 +113,14 @@ Grab LiveSource::Next() {
 }
 
 SourceStatus LiveSource::status() const {
-  const Timestamp now = wall_clock_();
+  const Timestamp now = shared_->clock();
   const std::lock_guard<std::mutex> lock(shared_->mutex);
   SourceStatus status;
   status.is_live = true;
   status.trouble = shared_->trouble;
   status.skipped = shared_->skipped;
   status.corrupt = shared_->corrupt;
-  const double silent_s = SecondsBetween(shared_->last_picture, now);
+  const double silent_s = SecondsBetween(shared_->heard, now);
   if (status.trouble.empty() && silent_s > kStalled_s) {
     status.trouble = shared_->capture.name + " has sent no picture for " +
                      std::to_string(static_cast<int>(silent_s)) + " s";

@@ -11,8 +11,9 @@ namespace deixis::capture {
 /// lost camera is opened again after 1, 2, 4 ... 30 s.
 class LiveSource final : public Source {
  public:
-  /// Opens the camera; throws ConfigError with the cure when it is not there.
-  LiveSource(Capture capture, std::function<Timestamp()> wall_clock);
+  /// Opens the camera; throws ConfigError with the cure when it is not there. By
+  /// `monotonic_clock` it tells that the camera is silent, whatever the capture times do.
+  LiveSource(Capture capture, std::function<Timestamp()> monotonic_clock);
   /// Leaves a reading thread that hangs in a dead camera behind rather than wait for it.
   ~LiveSource() override;
   LiveSource(const LiveSource&) = delete;
@@ -24,7 +25,6 @@ class LiveSource final : public Source {
  private:
   struct Shared;
   std::shared_ptr<Shared> shared_;  ///< Of this and the reading thread, whichever lives longer.
-  std::function<Timestamp()> wall_clock_;
 };
 
 }  // namespace deixis::capture

@@ -14,9 +14,9 @@ namespace {
 std::unique_ptr<Source> OpenOnce(const SourceConfig& config, const Clocks& clocks) {
   switch (config.kind) {
     case SourceKind::kDevice:
-      return std::make_unique<LiveSource>(DeviceCapture(config, clocks), clocks.wall);
+      return std::make_unique<LiveSource>(DeviceCapture(config, clocks), clocks.monotonic);
     case SourceKind::kUrl:
-      return std::make_unique<LiveSource>(UrlCapture(config, clocks), clocks.wall);
+      return std::make_unique<LiveSource>(UrlCapture(config, clocks), clocks.monotonic);
     case SourceKind::kVideo:
       return std::make_unique<VideoSource>(config);
     case SourceKind::kFolder:

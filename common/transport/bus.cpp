@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <deque>
 #include <map>
 #include <new>
@@ -14,6 +15,8 @@
 #include "common/logging/log.h"
 #include "common/transport/channel_name.h"
 #include "common/transport/log_writer.h"
+#include "common/transport/message_times.h"
+#include "common/transport/publisher_sequences.h"
 #include "common/transport/receive_buffer.h"
 #include "common/transport/sample_window.h"
 #include "common/transport/url.h"
@@ -24,13 +27,12 @@ namespace {
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-// A peer that floods must not keep the handlers of the newest pictures from their turn.
+// A peer that floods must not keep the newest pictures, the status and signals from their turn.
 constexpr int kMostPerHandle = 2000;
+constexpr milliseconds kLongestHandle{200};
 // Results older than this come from a replayed log, not from a live camera.
 constexpr double kOldestLiveAge_ms = 10'000.0;
 constexpr std::chrono::seconds kWarnEvery{10};
-// A larger jump is no loss but a publisher that counts anew, or a forged number.
-constexpr std::int64_t kLargestGap = 100'000;
 
 double MillisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -90,12 +92,28 @@ struct Bus::Implementation {
     Receiver receive;                                    // decoded subscribers
     std::function<void(const RawMessage&)> receive_raw;  // raw ones
     messages::ChannelStatistics statistics;
-    std::int64_t last_sequence = -1;
+    PublisherSequences sequences;
+    MessageTimes times;
     std::int64_t skipped_since_delivery = 0;
     std::int64_t without_memory = 0;   // not handed on; counted without taking memory
     std::vector<std::uint8_t> newest;  // kLatest: bytes waiting for their turn
     bool is_waiting = false;
     Clock::time_point next_warning{};
+    Clock::time_point next_warning_of_two{};
+    Clock::time_point next_warning_of_jump{};
+
+    std::string TwoPublishers(Clock::time_point now) const {
+      if (!sequences.HasTwoPublishers(now)) return "";
+      return "two publishers send on " + channel + " (" + std::to_string(sequences.out_of_turn()) +
+             " messages out of turn): stop one of them, or give it another channel";
+    }
+    std::string Jump(Clock::time_point now) const {
+      if (!times.HasJumped(now)) return "";
+      return "the time on " + channel + " jumped by " +
+             std::to_string(std::llround(times.last_jump_s())) + " s (" +
+             std::to_string(times.jumps()) +
+             " jumps): check its publisher's clock, unless a log is played";
+    }
   };
   struct Output {
     messages::ChannelStatistics statistics;
@@ -150,7 +168,9 @@ struct Bus::Implementation {
       throw BusError("cannot subscribe to '" + subscription.channel + "' at '" + url.text + "'" +
                      Cure(url));
     }
-    lcm_subscription_set_queue_capacity(handle, options.queue_capacity);
+    lcm_subscription_set_queue_capacity(handle, subscription.delivery == Delivery::kLatest
+                                                    ? options.latest_queue_capacity
+                                                    : options.queue_capacity);
   }
 
   // LCM's C code calls this: nothing may escape.
@@ -184,10 +204,12 @@ struct Bus::Implementation {
   void Deliver(Subscription& subscription, const RawMessage& raw) {
     const Clock::time_point start = Clock::now();
     bool is_accepted = false;
-    const Accept accept = [&](std::int64_t sequence) {
+    const Accept accept = [&](std::int64_t sequence, Timestamp time) {
       is_accepted = true;
       ++subscription.statistics.messages;
-      CountGaps(subscription, sequence);
+      if (!subscription.receive) return;
+      FollowSequence(subscription, sequence, time, start);
+      if (!options.deliver_every_message) FollowTime(subscription, time, start);
     };
     try {
       Hand(subscription, raw, accept);
@@ -200,7 +222,7 @@ struct Bus::Implementation {
 
   static void Hand(Subscription& subscription, const RawMessage& raw, const Accept& accept) {
     if (subscription.receive_raw) {
-      accept(-1);
+      accept(-1, {});
       subscription.receive_raw(raw);
     } else {
       subscription.receive(raw.bytes, accept);
@@ -208,16 +230,26 @@ struct Bus::Implementation {
   }
 
   // Sequence numbers are -1 (none) or 0..2^60, so differences do not overflow.
-  static void CountGaps(Subscription& subscription, std::int64_t sequence) {
-    if (sequence < 0) return;
-    if (subscription.last_sequence >= 0) {
-      // A smaller number is a publisher that counts anew; what was skipped was not lost.
-      const std::int64_t missing =
-          sequence - subscription.last_sequence - 1 - subscription.skipped_since_delivery;
-      if (missing > 0 && missing <= kLargestGap) subscription.statistics.gaps += missing;
-    }
-    subscription.last_sequence = sequence;
+  static void FollowSequence(Subscription& subscription, std::int64_t sequence, Timestamp time,
+                             Clock::time_point now) {
+    PublisherSequences& sequences = subscription.sequences;
+    sequences.Observe(sequence, time, subscription.skipped_since_delivery, now);
     subscription.skipped_since_delivery = 0;
+    subscription.statistics.gaps = sequences.gaps();
+    if (now < subscription.next_warning_of_two || !sequences.HasTwoPublishers(now)) return;
+    subscription.next_warning_of_two = now + kWarnEvery;
+    logging::Warn("two_publishers", {{"channel", subscription.channel},
+                                     {"out_of_turn", sequences.out_of_turn()},
+                                     {"cure", "stop one of them, or give it another channel"}});
+  }
+
+  static void FollowTime(Subscription& subscription, Timestamp time, Clock::time_point now) {
+    MessageTimes& times = subscription.times;
+    if (!times.Jumps(time, now) || now < subscription.next_warning_of_jump) return;
+    subscription.next_warning_of_jump = now + kWarnEvery;
+    logging::Warn("time_jumped", {{"channel", subscription.channel},
+                                  {"by_s", times.last_jump_s()},
+                                  {"count", times.jumps()}});
   }
 
   static void Drop(Subscription& subscription, const std::string& reason, const std::string& what) {
@@ -250,7 +282,10 @@ struct Bus::Implementation {
   int HandleArrived(milliseconds timeout) {
     arrived = 0;
     int result = HandleOne(timeout);
-    for (int i = 1; result > 0 && i < kMostPerHandle; ++i) result = HandleOne(milliseconds{0});
+    const Clock::time_point end = Clock::now() + kLongestHandle;
+    for (int i = 1; result > 0 && i < kMostPerHandle && Clock::now() < end; ++i) {
+      result = HandleOne(milliseconds{0});
+    }
     DeliverWaiting();
     if (result < 0 && url.provider == "file") is_exhausted = true;
     if (result < 0 && url.provider != "file")
@@ -289,6 +324,10 @@ struct Bus::Implementation {
                    {"bytes", size},
                    {"receive_buffer_bytes", receive_buffer_bytes},
                    {"cure", "sysctl -w net.core.rmem_max=4194304, or smaller messages"}});
+  }
+
+  std::int64_t KernelDrops() const {
+    return url.provider == "udpm" && lcm != nullptr ? DroppedByKernel(url.network) : 0;
   }
 
   BusOptions options;
@@ -373,8 +412,24 @@ std::vector<messages::ChannelStatistics> Bus::statistics() const {
       all.back().drops["too_large"] += subscription.without_memory;
     }
   }
+  if (const std::int64_t dropped = implementation_->KernelDrops(); dropped > 0) {
+    all.emplace_back();
+    all.back().channel = kAllChannels;
+    all.back().drops["kernel_buffer_full"] = dropped;
+  }
   for (const auto& output : implementation_->outputs) all.push_back(output.second.statistics);
   return all;
+}
+
+std::string Bus::trouble() const {
+  const Clock::time_point now = Clock::now();
+  std::string text;
+  for (const auto& subscription : implementation_->subscriptions) {
+    for (const std::string& part : {subscription.TwoPublishers(now), subscription.Jump(now)}) {
+      if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+    }
+  }
+  return text;
 }
 
 Percentiles Bus::processing_ms() const { return implementation_->processing.Summarise(); }

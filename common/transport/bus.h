@@ -26,11 +26,15 @@ enum class Delivery {
   kLatest  ///< Only the newest: pictures. What is passed over is counted as skipped.
 };
 
+/// Stands in statistics for what cannot be told by channel; no channel has such a name.
+inline constexpr const char* kAllChannels = "*";
+
 struct BusOptions {
   std::string url;                             ///< Empty: $LCM_DEFAULT_URL, else LCM's own default.
   std::string channel_prefix;                  ///< Set in front of every channel name.
   int receive_buffer_bytes = 4 * 1024 * 1024;  ///< Asked of the kernel unless the URL does so.
-  int queue_capacity = 500;                    ///< Messages that may wait per channel.
+  int queue_capacity = 500;                    ///< Messages that may wait per channel (kEvery).
+  int latest_queue_capacity = 30;              ///< The same for kLatest, whose messages are large.
   bool deliver_every_message = false;          ///< Offline: kLatest behaves as kEvery.
 };
 
@@ -55,7 +59,9 @@ struct Percentiles {
 ///
 /// Subscribers get plain structs. What does not decode, or makes no sense, is dropped and counted
 /// by reason. An exception that leaves a handler is counted ("handler_failed") and logged, and goes
-/// no further, since LCM would abort. Gaps in a publisher's sequence numbers are counted.
+/// no further, since LCM would abort. Gaps in a publisher's sequence numbers are counted, and two
+/// publishers on one channel noticed (see publisher_sequences.h). What waits is bounded by the
+/// queues' capacities, and one Handle() by a fifth of a second, however much is sent.
 class Bus {
  public:
   explicit Bus(const BusOptions& options);  ///< Throws BusError.
@@ -71,7 +77,10 @@ class Bus {
     SubscribeBytes(channel, delivery,
                    [handler = std::move(handler)](messages::Bytes bytes, const Accept& accept) {
                      const auto message = messages::Codec<T>::Decode(bytes);
-                     accept(message.sequence);
+                     // Every service speaks on the channel of the status: its numbers say nothing.
+                     const bool has_one_publisher = !std::is_same_v<T, messages::ServiceStatus>;
+                     accept(has_one_publisher ? message.sequence : -1,
+                            messages::Codec<T>::Time(message.value));
                      handler(message.value);
                    });
   }
@@ -99,14 +108,19 @@ class Bus {
 
   bool is_exhausted() const;  ///< A log that is being read has come to its end.
   bool is_live() const;       ///< Other processes listen: udpm or tcpq.
-  std::vector<messages::ChannelStatistics> statistics() const;  ///< Since the start.
+  /// Since the start. Datagrams that the kernel dropped since its buffer was full cannot be told by
+  /// channel: they stand under kAllChannels as "kernel_buffer_full", when there are any.
+  std::vector<messages::ChannelStatistics> statistics() const;
   Percentiles processing_ms() const;  ///< Decoding and handling, per message.
   Percentiles age_ms() const;         ///< Capture to publication, of published messages; live only.
   int receive_buffer_bytes() const;   ///< Granted by the kernel; 0 without a socket.
+  /// What is wrong with the channels, as one line with its cure; empty when nothing is: that two
+  /// publishers send on one, or that its times have just jumped.
+  std::string trouble() const;
   const std::string& url() const;
 
  private:
-  using Accept = std::function<void(std::int64_t sequence)>;
+  using Accept = std::function<void(std::int64_t sequence, Timestamp time)>;
   using Receiver = std::function<void(messages::Bytes, const Accept&)>;
   void SubscribeBytes(const std::string& channel, Delivery delivery, Receiver receiver);
   void PublishBytes(const std::string& channel, const std::vector<std::uint8_t>& bytes,

@@ -1,12 +1,15 @@
 #include "common/transport/receive_buffer.h"
 
+#include <linux/sock_diag.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 namespace deixis::transport {
 namespace {
@@ -28,19 +31,38 @@ int GrantedTo(int descriptor) {
   return bytes / 2;
 }
 
-}  // namespace
+std::int64_t DroppedBy(int descriptor) {
+  std::array<std::uint32_t, SK_MEMINFO_VARS> facts{};
+  socklen_t length = sizeof(facts);
+  if (getsockopt(descriptor, SOL_SOCKET, SO_MEMINFO, facts.data(), &length) != 0) return 0;
+  return facts[SK_MEMINFO_DROPS];
+}
 
-int GrantedReceiveBuffer(const std::string& network) {
+std::vector<int> SocketsOn(const std::string& network) {
   const auto colon = network.rfind(':');
   const int port =
       colon == std::string::npos ? kDefaultPort : std::atoi(network.c_str() + colon + 1);
   std::error_code ignored;
-  int largest = 0;
+  std::vector<int> sockets;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", ignored)) {
     const int descriptor = std::atoi(entry.path().filename().c_str());
-    if (IsBoundTo(descriptor, port)) largest = std::max(largest, GrantedTo(descriptor));
+    if (IsBoundTo(descriptor, port)) sockets.push_back(descriptor);
   }
+  return sockets;
+}
+
+}  // namespace
+
+int GrantedReceiveBuffer(const std::string& network) {
+  int largest = 0;
+  for (const int socket : SocketsOn(network)) largest = std::max(largest, GrantedTo(socket));
   return largest;
+}
+
+std::int64_t DroppedByKernel(const std::string& network) {
+  std::int64_t dropped = 0;
+  for (const int socket : SocketsOn(network)) dropped += DroppedBy(socket);
+  return dropped;
 }
 
 int ExpectedReceiveBuffer(int asked) {

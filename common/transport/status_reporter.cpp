@@ -23,6 +23,15 @@ Timestamp WallClock() {
               .count()};
 }
 
+// A service that works is degraded when its bus is in trouble.
+void Blame(const std::string& trouble, messages::ServiceStatus& status) {
+  if (trouble.empty()) return;
+  status.text += (status.text.empty() ? "" : "; ") + trouble;
+  if (status.state == messages::ServiceState::kRunning) {
+    status.state = messages::ServiceState::kDegraded;
+  }
+}
+
 std::string HostName() {
   std::array<char, 256> name{};
   gethostname(name.data(), name.size() - 1);
@@ -53,6 +62,7 @@ void StatusReporter::Report(messages::ServiceState state, const std::string& tex
   status.version = DEIXIS_VERSION;
   status.state = state;
   status.text = text;
+  Blame(input_.trouble(), status);
   status.channels = ChannelsWithRates(elapsed_s);
   status.processing_ms_p50 = input_.processing_ms().p50;
   status.processing_ms_p99 = input_.processing_ms().p99;

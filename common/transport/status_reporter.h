@@ -26,6 +26,7 @@ class StatusReporter {
   /// Reports on what passes through `input` and `output` (they may be one), by way of `output`.
   StatusReporter(Identity identity, const Bus& input, Bus& output);
 
+  /// What troubles the bus is added to `text`, and makes a running service a degraded one.
   void ReportIfDue(messages::ServiceState state, const std::string& text);
   void Report(messages::ServiceState state, const std::string& text);
 

@@ -1,11 +1,23 @@
 #include "common/transport/url.h"
 
 #include <cstdlib>
+#include <set>
 
 #include "common/transport/bus.h"
 
 namespace deixis::transport {
 namespace {
+
+// Which of two values counts would depend on the reader.
+void RequireKeysOnce(const std::string& text) {
+  std::set<std::string> keys;
+  for (auto at = text.find('?'); at != std::string::npos; at = text.find('&', at + 1)) {
+    const std::string key = text.substr(at + 1, text.find_first_of("=&", at + 1) - at - 1);
+    if (!key.empty() && !keys.insert(key).second) {
+      throw BusError("LCM URL '" + text + "' gives '" + key + "' twice; remove one");
+    }
+  }
+}
 
 Url TakeApart(const std::string& text) {
   const auto separator = text.find("://");
@@ -17,6 +29,7 @@ Url TakeApart(const std::string& text) {
   url.text = text;
   url.provider = text.substr(0, separator);
   url.network = text.substr(separator + 3, text.find('?') - separator - 3);
+  RequireKeysOnce(text);
   return url;
 }
 

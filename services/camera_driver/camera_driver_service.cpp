@@ -55,12 +55,25 @@ void CameraDriverServiceConfig::Validate() const {
   faults.ThrowIfAny();
 }
 
+PlayingClock::PlayingClock(Clocks clocks)
+    : clocks_(std::move(clocks)),
+      wall_began_(clocks_.wall()),
+      monotonic_began_(clocks_.monotonic()) {}
+
+Timestamp PlayingClock::Now() const {
+  return {wall_began_.microseconds + clocks_.monotonic().microseconds -
+          monotonic_began_.microseconds};
+}
+
 CameraDriverService::CameraDriverService(const CameraDriverServiceConfig& config, transport::Bus&,
                                          transport::Bus& output)
-    : config_(config), output_(output), driver_(config.driver, OpenQuietly(config.driver.source)) {}
+    : config_(config),
+      output_(output),
+      clock_(SystemClocks()),
+      driver_(config.driver, OpenQuietly(config.driver.source)) {}
 
 program::StepResult CameraDriverService::Step() {
-  const DriverOutput step = driver_.Next(Now<std::chrono::system_clock>());
+  const DriverOutput step = driver_.Next(clock_.Now());
   Publish(step);
   LogNews();
   if (step.state == capture::SourceState::kFinished) LogSummary();

@@ -5,6 +5,7 @@
 #include "common/transport/bus.h"
 #include "common/transport/status_reporter.h"
 #include "services/camera_driver/core/camera_driver.h"
+#include "services/camera_driver/core/clocks.h"
 
 namespace deixis::camera_driver {
 
@@ -20,6 +21,19 @@ struct CameraDriverServiceConfig {
     driver.Visit(v);  // On the same level: `source.kind`, not `driver.source.kind`.
   }
   void Validate() const;
+};
+
+/// The wall clock as it was when this began, going on by the monotonic one: a recording that is
+/// played goes on evenly when somebody sets the clock.
+class PlayingClock {
+ public:
+  explicit PlayingClock(Clocks clocks);
+  Timestamp Now() const;
+
+ private:
+  Clocks clocks_;
+  Timestamp wall_began_;
+  Timestamp monotonic_began_;
 };
 
 /// Publishes a camera's pictures and its calibration.
@@ -40,6 +54,7 @@ class CameraDriverService {
 
   CameraDriverServiceConfig config_;
   transport::Bus& output_;
+  PlayingClock clock_;
   CameraDriver driver_;
   std::int64_t published_ = 0;  ///< Pictures.
   std::string logged_remark_;

@@ -60,6 +60,8 @@ def test_what_a_udpm_url_leaves_out_is_lcms_own() -> None:
     ("udpm://:7667", "no multicast group"),
     ("tcpq://localhost:x", "port 'x'"),
     ("udpm://239.255.76.67:7667?ttl", "not of the form key=value"),
+    ("udpm://239.255.76.67:7667?ttl=0&ttl=1", "gives 'ttl' twice: remove one"),
+    ("file:///tmp/x?mode=r&mode=w", "gives 'mode' twice: remove one"),
 ])
 def test_wrong_urls_name_their_fault(text: str, fault: str) -> None:
     with pytest.raises(UserError, match=fault.replace("?", "\\?")):

@@ -154,6 +154,8 @@ def collect(url: str, seconds: float, enough) -> dict[str, list]:
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline and not enough(heard):
         bus.handle_timeout(100)
+        while bus.handle_timeout(0) > 0:  # A full queue would drop the newest, a status maybe.
+            continue
     return heard
 
 

@@ -168,6 +168,14 @@ def test_says_when_the_folder_cannot_be_written(url: str) -> None:
     assert "/proc/x.lcmlog cannot be written" in result.stderr
 
 
+def test_the_logger_ends_when_the_recording_is_killed(url: str, tmp_path: Path) -> None:
+    output = tmp_path / "x.lcmlog"
+    with talking(url), recording(url, output) as record:
+        assert becomes_true(lambda: bool(loggers_of(output)))
+        record.kill()
+        assert becomes_true(lambda: not loggers_of(output))
+
+
 def test_says_when_the_disk_is_full_and_keeps_what_there_was_before(url: str, log: Path) -> None:
     logger = log.parent / "bin" / "lcm-logger"
     logger.parent.mkdir()
@@ -305,6 +313,20 @@ def test_an_interrupted_offline_run_leaves_nothing_behind_and_says_so(
     assert process.returncode == 130
     assert "interrupted" in said and "was not written" in said
     assert not list(log.parent.glob("out*"))
+
+
+def test_an_interrupt_that_comes_while_the_child_is_started_is_heeded(
+        url: str, log: Path, offline: Offline) -> None:
+    command = [sys.executable, "-m", "deixis_frontend", "run-offline", str(log),
+               str(log.with_name("out"))]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path),
+                   **offline('kill -INT $PPID; echo some >"$2"; exec sleep 60')}
+    for _ in range(3):
+        done = subprocess.run(command, env=environment, text=True, capture_output=True, check=False,
+                              timeout=20, preexec_fn=heed_interrupts)
+        assert done.returncode == 130
+        assert "was not written" in done.stderr
+        assert not list(log.parent.glob("out*"))
 
 
 def test_without_multicast_the_cure_is_named(url: str, log: Path,

@@ -355,7 +355,7 @@ def test_a_url_that_leads_to_no_other_process_is_refused_at_once(bench: Bench, u
 
 def test_a_service_that_is_stopped_by_a_signal_is_silent_until_it_is_restarted(
         bench: Bench) -> None:
-    bench.write({"a": {"stop_within_s": 0.3}})
+    bench.write({"a": {"stop_within_s": 0.3, "restart_when_silent_s": 0}})
     bench.deixis("start")
     os.kill(bench.service("a")["pid"], signal.SIGSTOP)
     assert becomes_true(lambda: bench.service("a")["state"] == "silent")

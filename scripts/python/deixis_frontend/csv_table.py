@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from deixis_frontend.errors import UserError
+from deixis_frontend.input_files import require_regular
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,7 @@ class Row:
 
 def read(path: Path, columns: tuple[str, ...]) -> list[Row]:
     """All lines; raises UserError when the file cannot be read or a line lacks one of `columns`."""
+    require_regular(path)
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
             return _rows(path, csv.DictReader(file, strict=True), columns)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import os
 import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 INTERRUPTED = 130  # exit code, as of a shell
+ALL = frozenset((signal.SIGINT, signal.SIGTERM, signal.SIGHUP))
 
 
 def end_at_once() -> None:
@@ -26,3 +29,21 @@ def end_as_by_ctrl_c(*signals: signal.Signals) -> None:
     for number in signals:
         if signal.getsignal(number) is not signal.SIG_IGN:  # nohup has SIGHUP ignored.
             signal.signal(number, signal.default_int_handler)
+
+
+@contextmanager
+def held_back() -> Iterator[Callable[[], None]]:
+    """Holds interrupts back until what it gives is called, or to the end of the block.
+
+    For starting a child: one that comes in between would leave a child that nobody knows. The
+    child has to let them through itself (child_processes.end_with_parent does).
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ALL)
+
+    def let_through() -> None:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+    try:
+        yield let_through
+    finally:
+        let_through()

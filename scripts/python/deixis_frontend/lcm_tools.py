@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from deixis_frontend.errors import UserError
+from deixis_frontend.input_files import require_regular
 from deixis_frontend.lcm_url import LcmUrl
 from deixis_lcm.log_events import SYNC
 
@@ -27,6 +28,7 @@ def url_option(url: LcmUrl) -> str:
 
 def require_log(path: Path) -> None:
     """Raises UserError when `path` is no LCM log file."""
+    require_regular(path)
     try:
         with path.open("rb") as file:
             begin = file.read(len(SYNC))

@@ -6,6 +6,7 @@ from typing import Any
 
 _HEADER = ("service", "state", "pid", "uptime", "restarts", "in Hz", "out Hz", "lost", "work ms",
            "age ms", "CPU %", "MB")
+_ALL_CHANNELS = "*"  # as the C++ services name what cannot be told by channel
 _LEFT = 2  # columns that are flush left
 
 
@@ -16,6 +17,7 @@ def render(status: dict[str, Any]) -> str:
     lines = [f"{status['system']} on {status['lcm_url']}, supervisor pid"
              f" {status['supervisor_pid']}, up {duration(status['uptime_s'])}"]
     lines += [_line(row, widths) for row in rows]
+    lines += [status["trouble"]] if status.get("trouble") else []
     lines += [note for service in status["services"] for note in _notes(service)]
     return "\n".join(lines)
 
@@ -64,11 +66,14 @@ def _notes(service: dict[str, Any]) -> list[str]:
     notes = [service["last_error"] and f"last error: {service['last_error']}",
              service.get("text"),
              service["stranger"] and f"another one of its name speaks on this bus:"
-                                     f" {service['stranger']}"]
+                                     f" {service['stranger']}",
+             service["log_bytes_lost"] and f"{service['log_bytes_lost']} bytes of its log are lost:"
+                                           " is there room in log.folder?"]
     for channel in service.get("channels", []):
         if channel["drops"]:
             reasons = ", ".join(f"{count} {reason}" for reason, count in channel["drops"].items())
-            notes.append(f"dropped on {channel['name']}: {reasons}")
+            where = "any channel" if channel["name"] == _ALL_CHANNELS else channel["name"]
+            notes.append(f"dropped on {where}: {reasons}")
     return [f"{service['name']}: {note}" for note in notes if note]
 
 

@@ -118,7 +118,8 @@ void People::Forget(Timestamp now) {
   people_.erase(std::remove_if(people_.begin(), people_.end(),
                                [&](const Person& person) {
                                  const double trust_s = kTrustPerSight_s * person.times_seen;
-                                 return SecondsBetween(person.last_seen, now) >
+                                 // The absolute value: time may have jumped back.
+                                 return std::abs(SecondsBetween(person.last_seen, now)) >
                                         std::min(memory_s_, trust_s);
                                }),
                 people_.end());

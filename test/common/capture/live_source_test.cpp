@@ -140,5 +140,15 @@ TEST_F(LiveSourceTest, SaysThatItsCameraIsSilent) {
   camera_.Unplug();
 }
 
+TEST_F(LiveSourceTest, TellsSilenceWhateverTheCaptureTimesAre) {
+  LiveSource source = Open();
+  camera_.Send(std::int64_t{1} << 59);  // Before the clock was set back by ages.
+  ASSERT_TRUE(WaitForPicture(source));
+  EXPECT_EQ(source.status().trouble, "");
+  now_us_ = 4'000'000;
+  EXPECT_THAT(source.status().trouble, HasSubstr("no picture for 4 s"));
+  camera_.Unplug();
+}
+
 }  // namespace
 }  // namespace deixis::capture

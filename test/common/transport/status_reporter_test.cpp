@@ -36,6 +36,24 @@ TEST_F(StatusReporterTest, SaysWhoAndHow) {
   EXPECT_EQ(received_[0].text, "no face");
 }
 
+TEST_F(StatusReporterTest, IsDegradedAndSaysSoWhileTwoPublishOnOneChannel) {
+  bus_.Subscribe<Hands>("HANDS", Delivery::kEvery, [](const Hands&) {});
+  for (int i = 0; i < 10; ++i) {
+    for (const std::int64_t sequence : {100 + i, 500 + i}) {
+      const auto bytes = messages::Codec<Hands>::Encode(Hands{{i}, "", "", {}}, sequence);
+      bus_.PublishRaw("HANDS", {bytes.data(), bytes.size()}, {i});
+    }
+  }
+  test::HandleAll(bus_);
+  StatusReporter reporter({"x", ""}, bus_, bus_);
+  reporter.Report(messages::ServiceState::kRunning, "well");
+  test::HandleAll(bus_);
+  ASSERT_EQ(received_.size(), 1u);
+  EXPECT_EQ(received_[0].state, messages::ServiceState::kDegraded);
+  EXPECT_THAT(received_[0].text, testing::StartsWith("well; two publishers send on HANDS"));
+  for (const auto& channel : received_[0].channels) EXPECT_EQ(channel.gaps, 0);
+}
+
 TEST_F(StatusReporterTest, ReportsAtOnceAndThenNotBeforeASecond) {
   StatusReporter reporter({"x", ""}, bus_, bus_);
   for (int i = 0; i < 5; ++i) reporter.ReportIfDue(messages::ServiceState::kRunning, "");

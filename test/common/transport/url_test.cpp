@@ -51,6 +51,12 @@ TEST(Url, WithoutProviderIsAnError) {
   EXPECT_THROW(ResolveUrl("239.255.1.1:7000", 1000), BusError);
 }
 
+TEST(Url, WithAKeyGivenTwiceIsAnError) {
+  EXPECT_THROW(ResolveUrl("udpm://239.255.1.1:7000?ttl=0&ttl=1", 1000), BusError);
+  EXPECT_THROW(ResolveUrl("file:///tmp/x?mode=r&speed=1&mode=w", 1000), BusError);
+  EXPECT_NO_THROW(ResolveUrl("udpm://239.255.1.1:7000?ttl=0&recv_buf_size=5", 1000));
+}
+
 TEST(Url, OfAnUnknownProviderIsAnErrorWhenOpened) {
   BusOptions options;
   options.url = "carrier_pigeon://";

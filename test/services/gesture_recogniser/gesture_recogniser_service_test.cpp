@@ -51,6 +51,32 @@ TEST_F(GestureRecogniserServiceTest, TurnsTracksAndObjectsIntoOneEvent) {
   EXPECT_NE(gestures_[1].end.microseconds, 0);
 }
 
+TEST_F(GestureRecogniserServiceTest, RecognisesAgainAfterTimeHasJumpedToAndFro) {
+  const GestureRecogniserService service({}, bus_, bus_);
+  const PointingScene scene;
+  const auto play = [&](double from_s, double to_s, std::int64_t offset_us) {
+    for (double time_s = from_s; time_s < to_s; time_s += 1.0 / 15.0) {
+      auto objects = scene.Objects(time_s);
+      auto hands = HandAt(time_s, scene.Hand(time_s));
+      objects.time.microseconds += offset_us;
+      for (auto& object : objects.objects) object.last_seen = objects.time;
+      hands.time.microseconds += offset_us;
+      bus_.Publish("OBJECTS", objects);
+      bus_.Publish("HAND_TRACKS", hands);
+      test::HandleAll(bus_);
+    }
+  };
+  constexpr std::int64_t kHour_us = 3'600'000'000;
+  constexpr std::int64_t kLast_us = (std::int64_t{1} << 60) - kHour_us;  // The year 38,500.
+  for (const std::int64_t offset_us : {5 * kHour_us, std::int64_t{0}, kLast_us, kHour_us}) {
+    play(0.0, 1.0, offset_us);
+  }
+  gestures_.clear();
+  play(0.0, 4.5, 0);
+  ASSERT_EQ(gestures_.size(), 2U);
+  EXPECT_EQ(gestures_[0].object_id, 3);
+}
+
 TEST_F(GestureRecogniserServiceTest, StatesCarryTheTimeOfTheirHands) {
   const GestureRecogniserService service({}, bus_, bus_);
   bus_.Publish("HAND_TRACKS", HandAt(1.25, {100.0, 100.0}));

@@ -1,6 +1,6 @@
 #include "services/hand_tracker/hand_tracker_service.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
@@ -55,6 +55,30 @@ TEST_F(HandTrackerServiceTest, GoesOnAfterAMessageThatIsNoPicture) {
   EXPECT_TRUE(answers_.empty());
   Show(0);
   EXPECT_EQ(answers_.size(), 1U);
+}
+
+TEST_F(HandTrackerServiceTest, FollowsHandsAgainAfterTimeHasJumpedToAndFro) {
+  HandTrackerService service(config_, bus_, bus_);
+  const auto show_at = [this](int frame, std::int64_t offset_us) {
+    auto faces = person_.Faces(frame);
+    auto picture = person_.Picture(frame);
+    faces.time.microseconds += offset_us;
+    for (scene::Object& face : faces.objects) face.last_seen = faces.time;
+    picture.time.microseconds += offset_us;
+    bus_.Publish("OBJECTS", faces);
+    bus_.Publish("CAMERA", picture);
+    test::HandleAll(bus_);
+  };
+  constexpr std::int64_t kHour_us = 3'600'000'000;
+  constexpr std::int64_t kLast_us = (std::int64_t{1} << 60) - 1'000'000'000;  // The year 38,500.
+  int frame = 0;
+  for (const std::int64_t offset_us : {9 * kHour_us, std::int64_t{0}, kLast_us, 2 * kHour_us}) {
+    for (int i = 0; i < 5; ++i, ++frame) show_at(frame, offset_us);
+  }
+  EXPECT_EQ(answers_.size(), 20U);
+  for (int i = 0; i < 120; ++i, ++frame) show_at(frame, 2 * kHour_us);
+  EXPECT_EQ(answers_.back().hands.size(), 2U);
+  EXPECT_THAT(bus_.trouble(), testing::HasSubstr("the time on CAMERA jumped"));
 }
 
 TEST_F(HandTrackerServiceTest, PublishesWhereTheConfigurationSays) {

@@ -38,6 +38,21 @@ TEST_F(ObjectDetectorServiceTest, AnswersAPictureWithWhatIsKnownAtItsTime) {
   EXPECT_TRUE(answers_[0].objects.empty());
 }
 
+TEST_F(ObjectDetectorServiceTest, AnswersEveryPictureWhenTimeJumpsToAndFro) {
+  ObjectDetectorService service(config_, bus_, bus_);
+  const std::int64_t last_us = std::int64_t{1} << 60;  // The year 38,500.
+  std::vector<std::int64_t> answered;
+  for (const std::int64_t time_us :
+       {std::int64_t{9'000'000'000}, std::int64_t{5}, last_us, std::int64_t{6}, last_us - 1}) {
+    bus_.Publish("CAMERA", Wall(time_us));
+    test::HandleAll(bus_);
+    ASSERT_FALSE(answers_.empty());
+    EXPECT_EQ(answers_.back().time.microseconds, time_us);
+  }
+  EXPECT_EQ(answers_.size(), 5u);
+  EXPECT_THAT(bus_.trouble(), HasSubstr("the time on CAMERA jumped"));
+}
+
 TEST_F(ObjectDetectorServiceTest, GoesOnAfterAMessageThatIsNoPicture) {
   ObjectDetectorService service(config_, bus_, bus_);
   const std::vector<std::uint8_t> junk(40, 0xAB);

@@ -59,6 +59,18 @@ TEST_F(ViewerServiceTest, WritesTheLatestPictureNoMoreOftenThanAsked) {
   EXPECT_TRUE(Exists("latest.png"));
 }
 
+TEST_F(ViewerServiceTest, GoesOnWhenTimeJumpsToAndFro) {
+  ViewerService service(config_, bus_, bus_);
+  const std::int64_t last_us = std::int64_t{1} << 60;  // The year 38,500.
+  for (const std::int64_t time_us :
+       {std::int64_t{9'000'000'000}, std::int64_t{5}, last_us, std::int64_t{7'000'000}}) {
+    SendImage(time_us);
+    EXPECT_TRUE(std::filesystem::remove(folder_.path() / "latest.png")) << time_us;
+  }
+  SendGesture(1, 7'000'000, 0);
+  EXPECT_TRUE(Exists("gesture_1_lamp_7000000.png"));
+}
+
 TEST_F(ViewerServiceTest, WritesOnePicturePerGesture) {
   ViewerService service(config_, bus_, bus_);
   SendImage(1'000'000);

@@ -8,13 +8,15 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from deixis_frontend import layout as layouts
 from deixis_frontend import lcm_url
 from deixis_frontend.channel_patterns import channel_pattern
+from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
-from deixis_frontend.interrupts import end_as_by_ctrl_c
+from deixis_frontend.interrupts import end_as_by_ctrl_c, held_back
 from deixis_frontend.lcm_tools import find_logger, url_option
 from deixis_frontend.number_options import above_zero
 from deixis_frontend.output_files import UnfinishedFile
@@ -45,9 +47,11 @@ def run(arguments: argparse.Namespace) -> int:
     file = UnfinishedFile(output, "--output", may_replace=arguments.force)
     print(f"recording to {output}" + ("" if arguments.seconds else "; Ctrl-C stops"), flush=True)
     end_as_by_ctrl_c(signal.SIGTERM, signal.SIGHUP)
-    logger = subprocess.Popen([*command, str(file.path)], stdout=subprocess.DEVNULL,
-                              stderr=subprocess.PIPE, text=True, start_new_session=True)
-    _wait(logger, arguments.seconds, file)
+    with held_back() as let_through:
+        logger = subprocess.Popen([*command, str(file.path)], stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE, text=True, start_new_session=True,
+                                  preexec_fn=end_with_parent(signal.SIGINT))
+        _wait(logger, arguments.seconds, file, let_through)
     return _conclude(logger, file)
 
 
@@ -72,9 +76,11 @@ def _pattern(channels: list[re.Pattern[str]]) -> str:
     return "|".join(f"({channel.pattern})" for channel in channels) if channels else ".*"
 
 
-def _wait(logger: subprocess.Popen[str], seconds: float | None, file: UnfinishedFile) -> None:
+def _wait(logger: subprocess.Popen[str], seconds: float | None, file: UnfinishedFile,
+          let_through: Callable[[], None]) -> None:
     began = said = time.monotonic()
     try:
+        let_through()
         while logger.poll() is None:
             now = time.monotonic()
             if seconds is not None and now - began >= seconds:

@@ -9,8 +9,9 @@ import sys
 from pathlib import Path
 
 from deixis_frontend import layout as layouts
+from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
-from deixis_frontend.interrupts import INTERRUPTED, end_as_by_ctrl_c
+from deixis_frontend.interrupts import INTERRUPTED, end_as_by_ctrl_c, held_back
 from deixis_frontend.lcm_tools import require_log
 from deixis_frontend.output_files import UnfinishedFile
 
@@ -53,13 +54,16 @@ def _more_options(arguments: argparse.Namespace) -> list[str]:
 
 
 def _run(command: list[str], layout: layouts.Layout) -> int:
-    process = subprocess.Popen(command, env=layout.environment())
-    try:
-        return process.wait()
-    except KeyboardInterrupt:
-        process.terminate()
-        process.wait()
-        return INTERRUPTED
+    with held_back() as let_through:
+        process = subprocess.Popen(command, env=layout.environment(),
+                                   preexec_fn=end_with_parent(signal.SIGTERM))
+        try:
+            let_through()
+            return process.wait()
+        except KeyboardInterrupt:
+            process.terminate()
+            process.wait()
+            return INTERRUPTED
 
 
 def offline_command(layout: layouts.Layout, source: Path, target: Path, settings: list[str],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,6 +12,7 @@ from deixis_frontend.commands.run_offline import offline_command
 from deixis_frontend.demo.clip import Clip
 from deixis_frontend.demo.commentary import Commentary
 from deixis_frontend.demo.stage import Stage
+from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
 from deixis_frontend.layout import Layout
 from deixis_frontend.programs import last_words
@@ -56,7 +58,8 @@ def _run(command: list[str], stage: Stage) -> None:
     log.parent.mkdir(exist_ok=True)
     with log.open("wb") as file:
         code = subprocess.run(command, env=stage.layout.environment(), stdout=file, stderr=file,
-                              check=False).returncode
+                              check=False,
+                              preexec_fn=end_with_parent(signal.SIGTERM)).returncode
     if code:
         said = last_words(log.read_text(encoding="utf-8", errors="replace"))
         raise UserError(f"{Path(command[0]).name} ended with exit code {code}:"

@@ -7,6 +7,7 @@ rate that is asked for. The figures come from their SERVICE_STATUS and from /pro
 from __future__ import annotations
 
 import argparse
+import signal
 import subprocess
 import tempfile
 import time
@@ -15,6 +16,7 @@ from typing import Any
 
 from deixis_frontend import layout, lcm_url
 from deixis_frontend.bus import open_bus
+from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import report_options
 from deixis_frontend.number_options import above_zero
@@ -114,7 +116,8 @@ class _Chain:
         for setting in settings:
             command += ["--set", setting]
         log = (self._folder / f"{service}.log").open("wb")
-        self._processes[service] = subprocess.Popen(command, stderr=log)
+        self._processes[service] = subprocess.Popen(
+            command, stderr=log, preexec_fn=end_with_parent(signal.SIGTERM))
 
     def _stop(self, service: str) -> None:
         process = self._processes[service]

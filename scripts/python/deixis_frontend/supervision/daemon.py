@@ -16,6 +16,7 @@ from deixis_frontend.layout import Layout
 from deixis_frontend.lcm_url import LcmUrl, parse
 from deixis_frontend.supervision import guard
 from deixis_frontend.supervision.control_server import ControlServer
+from deixis_frontend.supervision.own_log import say
 from deixis_frontend.supervision.run_folder import RunFolder
 from deixis_frontend.supervision.status_listener import StatusListener
 from deixis_frontend.supervision.supervisor import Supervisor
@@ -95,10 +96,9 @@ async def _stay_reachable(folder: RunFolder, system: System, token: str, server:
                 folder.lock_again(system.path, token)
             if not folder.socket.exists():
                 await server.serve(folder.socket)
-                print(f"{folder.path} was deleted: made anew", file=sys.stderr, flush=True)
+                say(f"{folder.path} was deleted: made anew")
         except (UserError, OSError) as error:
-            print(f"{folder.path} was deleted: everything is stopped: {error}", file=sys.stderr,
-                  flush=True)
+            say(f"{folder.path} was deleted: everything is stopped: {error}")
             end.set()
             return
 

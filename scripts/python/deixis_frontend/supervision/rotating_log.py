@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-import sys
 from pathlib import Path
+
+from deixis_frontend.supervision.own_log import say
 
 
 class RotatingLog:
@@ -28,8 +29,7 @@ class RotatingLog:
             self._write(data)
         except OSError as error:
             if not self.lost_bytes:
-                print(f"{self._path}: {error.strerror}: lines are lost", file=sys.stderr,
-                      flush=True)
+                say(f"{self._path}: {error.strerror}: lines are lost")
             self.lost_bytes += len(data)
             self.close()
 

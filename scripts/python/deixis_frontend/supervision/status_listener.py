@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import re
-import sys
 from collections.abc import Callable
 from typing import Any
 
 from deixis_frontend.bus import open_bus
 from deixis_frontend.layout import Layout
 from deixis_frontend.lcm_url import LcmUrl
+from deixis_frontend.supervision.own_log import say
 
 CHANNEL = "SERVICE_STATUS"
+_MOST_PER_TURN = 100
 STATES = ("starting", "running", "degraded", "stopping")
 
 
@@ -35,8 +36,10 @@ class StatusListener:
         loop.add_reader(self._bus.fileno(), self._spin)
 
     def _spin(self) -> None:
-        while self._bus.handle_timeout(0) > 0:
-            continue
+        """A peer that floods must not keep the loop from its other work: it calls again."""
+        for _ in range(_MOST_PER_TURN):
+            if self._bus.handle_timeout(0) <= 0:
+                return
 
     def _handle(self, _channel: str, data: bytes) -> None:
         try:
@@ -44,7 +47,7 @@ class StatusListener:
         except Exception as error:  # Anything may be on the bus: count it, say it once, go on.
             self.refused += 1
             if self.refused == 1:
-                print(f"a message on {CHANNEL} does not decode: {error}", file=sys.stderr)
+                say(f"a message on {CHANNEL} does not decode: {error}")
             return
         self._on_status(message)
 

@@ -10,12 +10,14 @@ from typing import Any
 import yaml
 
 from deixis_frontend.errors import Refusal
+from deixis_frontend.input_files import require_regular
 
 _KINDS = {str: "a text", int: "a whole number", float: "a number"}
 
 
 def read(path: Path) -> Section:
     """The top-level section of a YAML file; raises Refusal when there is none."""
+    require_regular(path)
     try:
         node = yaml.compose(path.read_text(encoding="utf-8"), Loader=yaml.SafeLoader)
     except FileNotFoundError:

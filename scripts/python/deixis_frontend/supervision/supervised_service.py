@@ -70,6 +70,7 @@ class SupervisedService:
         self._cpu = process_facts.CpuMeter()
         self._heard: dict[str, Any] = {}
         self._heard_at = 0.0
+        self._killed_because = ""
         self.stranger = ""
 
     @property
@@ -111,6 +112,21 @@ class SupervisedService:
         else:
             self.stranger = f"pid {message.pid} on {message.host}"
 
+    def silent_s(self) -> float | None:
+        """How long it has not spoken; None when it has not to, since it is not ready."""
+        return time.monotonic() - self._heard_at if self.state in READY else None
+
+    def excuse_silence(self) -> None:
+        """Counts the silence anew: it was not the service's own."""
+        self._heard_at = time.monotonic()
+
+    def kill(self, reason: str) -> None:
+        """Ends a process that hangs, and its children; the restart policy says what follows."""
+        if self._process and not self._killed_because:
+            self._killed_because = reason
+            self._note(f"{reason}: killed")
+            self._process.signal_group(signal.SIGKILL)
+
     def sample(self) -> None:
         """Measures the CPU use; call it about once a second."""
         if self._process:
@@ -132,6 +148,7 @@ class SupervisedService:
             "status_age_s": _rounded(now - self._heard_at) if self._heard else None,
             "last_error": self.last_error,
             "stranger": self.stranger,
+            "log_bytes_lost": self._log.lost_bytes,
             **self._heard,
         }
 
@@ -229,7 +246,8 @@ class SupervisedService:
         assert self._process is not None
         said = self._process.last_error_line
         self._process = None
-        how = _describe(exit_code)
+        how = self._killed_because or _describe(exit_code)
+        self._killed_because = ""
         self._note(f"ended: {how}")
         if exit_code:
             self.last_error = f"{how}: {said}" if said and exit_code > 0 else how

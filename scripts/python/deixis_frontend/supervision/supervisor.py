@@ -10,9 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from deixis_frontend.layout import Layout
-from deixis_frontend.lcm_url import LcmUrl
+from deixis_frontend.lcm_url import LcmUrl, why_bus_fails
 from deixis_frontend.supervision.guard import TOKEN_VARIABLE
+from deixis_frontend.supervision.own_log import say
+from deixis_frontend.supervision.receive_drops import kernel_drops
 from deixis_frontend.supervision.rotating_log import RotatingLog
+from deixis_frontend.supervision.silence_watch import SilenceWatch
 from deixis_frontend.supervision.supervised_service import READY, Launch, State, SupervisedService
 from deixis_frontend.supervision.system_file import ServiceEntry, System
 
@@ -37,6 +40,8 @@ class Supervisor:
             for name, entry in system.services.items()
         }
         self._began = time.monotonic()
+        self._watch = SilenceWatch(lambda: why_bus_fails(url), lambda: kernel_drops(url))
+        self._trouble = ""
 
     async def start(self, names: list[str], report: Report) -> bool:
         """Starts groups and services (none named: those of `start`); true when all got ready."""
@@ -70,9 +75,15 @@ class Supervisor:
             service.hear(message)
 
     def sample(self) -> None:
-        """Measures all services; call it about once a second."""
+        """Measures all services and kills those that hang; call it about once a second."""
         for service in self._services.values():
             service.sample()
+        judgement = self._watch.judge(list(self._services.values()))
+        for service in judgement.hanging:
+            service.kill(f"hung: silent for {service.silent_s() or 0.0:.0f} s")
+        if judgement.trouble and judgement.trouble != self._trouble:
+            say(judgement.trouble)
+        self._trouble = judgement.trouble
 
     def status(self) -> dict[str, Any]:
         """Everything that `status` shows."""
@@ -82,6 +93,7 @@ class Supervisor:
             "lcm_url": str(self._url),
             "supervisor_pid": os.getpid(),
             "uptime_s": round(time.monotonic() - self._began, 1),
+            "trouble": self._trouble,
             "services": [service.facts() for service in self._services.values()],
         }
 

@@ -10,6 +10,7 @@ from deixis_frontend.errors import Refusal, UserError
 from deixis_frontend.supervision import strict_yaml
 from deixis_frontend.supervision.strict_yaml import Section
 
+SHORTEST_SILENCE_S = 2.0
 RESTARTS = ("always", "on_failure", "never")
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
 
@@ -41,6 +42,7 @@ class ServiceEntry:
     ready_within_s: float = 15.0
     stop_within_s: float = 5.0
     give_up_after: int = 3
+    restart_when_silent_s: float = 10.0  # 0 = never
 
 
 @dataclass(frozen=True)
@@ -153,9 +155,20 @@ def _service(name: str, section: Section) -> ServiceEntry:
         ready_within_s=section.number("ready_within_s", default.ready_within_s, 0.1, 600),
         stop_within_s=section.number("stop_within_s", default.stop_within_s, 0.1, 600),
         give_up_after=section.integer("give_up_after", default.give_up_after, 1, 100),
+        restart_when_silent_s=_silence(section, default.restart_when_silent_s),
     )
     section.finish()
     return entry
+
+
+def _silence(section: Section, default: float) -> float:
+    key = "restart_when_silent_s"
+    value = section.number(key, default, 0, 3600)
+    if 0 < value < SHORTEST_SILENCE_S:
+        section.fault(key, f"{value:g} is neither 0 nor {SHORTEST_SILENCE_S:g} or more: a service"
+                           " speaks once a second, and may be busy")
+        return default
+    return value
 
 
 def _check(system: System, top: Section) -> None:
