@@ -72,7 +72,7 @@ class Meter:
         for arrival in messages:
             if arrival is not None:
                 self._take(arrival)
-            elif messages.is_live and time.monotonic() >= next_table:
+            elif messages.url and time.monotonic() >= next_table:
                 next_table += _TABLE_EVERY_S
                 self._print_recent()
 

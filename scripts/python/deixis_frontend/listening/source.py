@@ -38,7 +38,7 @@ class Source(Protocol):
     """Yields what arrives, and None now and then, so that whoever listens can do other things."""
 
     name: str
-    is_live: bool
+    url: LcmUrl | None  # of a log: None
 
     def __iter__(self) -> Iterator[Arrival | None]: ...
 
@@ -69,10 +69,9 @@ def open_source(arguments: argparse.Namespace) -> Source:
 class Live:
     """The messages on the bus, for so many seconds or for ever. Subscribed from the beginning."""
 
-    is_live = True
-
     def __init__(self, url: LcmUrl, channels: re.Pattern[str], seconds: float | None) -> None:
         self.name = str(url)
+        self.url: LcmUrl | None = url
         self._channels = channels
         self._seconds = seconds
         self._waiting: deque[Arrival] = deque()
@@ -97,7 +96,7 @@ class Live:
 class Log:
     """The messages of a log file, for so many of its seconds or to its end."""
 
-    is_live = False
+    url: LcmUrl | None = None
 
     def __init__(self, path: Path, channels: re.Pattern[str], seconds: float | None) -> None:
         self.name = str(path)
@@ -121,6 +120,6 @@ class Log:
 def why_nothing(source: Source, channels: list[re.Pattern[str]]) -> str:
     """What to say when no message came."""
     wanted = f" on {', '.join(channel.pattern for channel in channels)}" if channels else ""
-    cure = ("`deixis topics` lists what is spoken there" if source.is_live
+    cure = ("`deixis topics` lists what is spoken there" if source.url
             else f"`deixis topics --log {source.name}` lists what it holds")
-    return f"no message{wanted} in {source.name}: {cure}"
+    return f"no message{wanted} from {source.name}: {cure}"
