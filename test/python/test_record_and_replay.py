@@ -15,16 +15,7 @@ from pathlib import Path
 import lcm
 import pytest
 from bench import becomes_true, heed_interrupts
-
-
-def deixis(url: str, *arguments: object, prefix: tuple[str, ...] = (),
-           **environment: str) -> subprocess.CompletedProcess[str]:
-    """Runs a command of the front end to its end."""
-    command = [*prefix, sys.executable, "-m", "deixis_frontend", *map(str, arguments)]
-    path = os.pathsep.join(sys.path)
-    return subprocess.run(command, env={**os.environ, "LCM_DEFAULT_URL": url, "PYTHONPATH": path,
-                                        **environment},
-                          capture_output=True, text=True, check=False, timeout=30)
+from front_end import deixis
 
 
 @contextmanager

@@ -36,9 +36,14 @@ def run(arguments: argparse.Namespace) -> int:
     printer = _Printer(arguments, Decoder(layouts.find()))
     messages = source.open_source(arguments)
     end_as_by_ctrl_c(signal.SIGTERM, signal.SIGHUP)
-    with suppress(KeyboardInterrupt):
-        printer.print_all(messages)
-    return printer.conclude(messages)
+    try:
+        with suppress(KeyboardInterrupt):
+            printer.print_all(messages)
+    finally:
+        printer.say_what_was_left_out()
+    if not printer.arrived:
+        raise UserError(source.why_nothing(messages, arguments.channels))
+    return 0 if printer.printed else 1
 
 
 class _Printer:
@@ -47,7 +52,7 @@ class _Printer:
     def __init__(self, arguments: argparse.Namespace, decoder: Decoder) -> None:
         self._arguments = arguments
         self._decoder = decoder
-        self._arrived = self._printed = 0
+        self.arrived = self.printed = 0
         self._without_field: set[tuple[str, str]] = set()
 
     def print_all(self, messages: Source) -> None:
@@ -55,22 +60,19 @@ class _Printer:
         for arrival in messages:
             if arrival is None:
                 continue
-            self._arrived += 1
+            self.arrived += 1
             message = self._decoder.decode(arrival)
             if message is not None:
                 self._print(arrival, message)
-            if self._printed == self._arguments.count:
+            if self.printed == self._arguments.count:
                 return
 
-    def conclude(self, messages: Source) -> int:
-        """Says what was left out; raises UserError when nothing came at all."""
-        if not self._arrived:
-            raise UserError(source.why_nothing(messages, self._arguments.channels))
+    def say_what_was_left_out(self) -> None:
+        """What did not decode, and why."""
         left_out = self._decoder.words()
         if left_out:
-            print(f"deixis: printed {self._printed} messages; not printed: {left_out}",
+            print(f"deixis: printed {self.printed} messages; not printed: {left_out}",
                   file=sys.stderr)
-        return 0 if self._printed else 1
 
     def _print(self, arrival: Arrival, message: Message) -> None:
         try:
@@ -78,9 +80,9 @@ class _Printer:
         except NoSuchField as fault:
             self._say_once(arrival.channel, f"{message.type_name} {fault}")
             return
+        self.printed += 1  # First: Ctrl-C may come as soon as it is printed.
         print(self._as_json(arrival, message, content) if self._arguments.json
               else _as_yaml(arrival, message, content), flush=True)
-        self._printed += 1
 
     def _content(self, message: Message) -> Any:
         full = self._arguments.full

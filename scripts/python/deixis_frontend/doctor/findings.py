@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from deixis_frontend.bus import missing_module
 from deixis_frontend.errors import UserError
 
 OK, WARNING, PROBLEM = "ok", "warning", "problem"
@@ -43,3 +44,5 @@ def examine(name: str, check: Check) -> list[Finding]:
         return check()
     except UserError as error:
         return [Finding(PROBLEM, name, line) for line in str(error).splitlines()]
+    except ModuleNotFoundError as error:
+        return [Finding(PROBLEM, name, missing_module(str(error.name)))]

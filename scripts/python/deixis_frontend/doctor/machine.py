@@ -60,8 +60,9 @@ def disk(folder: Path) -> list[Finding]:
         with tempfile.TemporaryFile(dir=place):
             pass
     except OSError as error:
+        cure = f"chown -R $USER {folder}" if place == folder else f"install -d -o $USER {folder}"
         return [Finding(PROBLEM, "disk", f"{folder} cannot be written: {error.strerror}",
-                        f"sudo chown -R $USER {place}")]
+                        f"sudo {cure}")]
     free = shutil.disk_usage(place).free
     level = PROBLEM if free < _NO_SPACE else WARNING if free < _LITTLE_SPACE else OK
     cure = "" if level == OK else f"du -ah {place} | sort -h | tail"

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import shutil
 import socket
+import struct
 import subprocess
 
 from deixis_frontend import lcm_url
@@ -13,6 +15,8 @@ from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding
 from deixis_frontend.lcm_url import RECEIVE_BUFFER_BYTES, LcmUrl
 
 _ROUTE = (("ip", "link", "set", "lo", "up"), ("ip", "route", "add", "224.0.0.0/4", "dev", "lo"))
+_SIOCGIFFLAGS = 0x8913  # netdevice(7)
+_IFF_UP, _IFF_LOOPBACK = 0x1, 0x8
 _BUFFER = (("sysctl", "-w", f"net.core.rmem_max={RECEIVE_BUFFER_BYTES}"),)
 
 
@@ -64,9 +68,9 @@ def reach(url: LcmUrl) -> list[Finding]:
 
 def fence(url: LcmUrl) -> list[Finding]:
     """Whether others can send to our port."""
-    others = [name for _, name in socket.if_nameindex() if name != "lo"]
     if url.provider != "udpm":
         return []
+    others = _interfaces_to_others()
     if not others:
         return [Finding(OK, "fence", "this host has no network but loopback")]
     place = f"port {url.port} on {', '.join(others)}"
@@ -78,6 +82,21 @@ def fence(url: LcmUrl) -> list[Finding]:
         return [Finding(OK, "fence", f"a firewall closes {place}: {rule}")]
     return [Finding(WARNING, "fence", f"no firewall rule closes {place}: whoever reaches it can"
                     " speak", firewall.cure(url.port))]
+
+
+def _interfaces_to_others() -> list[str]:
+    """Names of the interfaces that are up, loopback left out."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
+        flags = {name: _flags(asked, name) for _, name in socket.if_nameindex()}
+    return [name for name, value in flags.items() if value & _IFF_UP and not value & _IFF_LOOPBACK]
+
+
+def _flags(asked: socket.socket, name: str) -> int:
+    try:
+        answer = fcntl.ioctl(asked, _SIOCGIFFLAGS, struct.pack("16sH14x", name.encode(), 0))
+    except OSError:
+        return 0  # Gone meanwhile.
+    return int(struct.unpack_from("H", answer, 16)[0])
 
 
 def _rules() -> str:

@@ -45,11 +45,13 @@ def run(arguments: argparse.Namespace, header: tuple[str, ...], measure: Measure
     meter = Meter(Decoder(layouts.find()), header, measure)
     messages = source.open_source(arguments)
     end_as_by_ctrl_c(signal.SIGTERM, signal.SIGHUP)
-    with suppress(KeyboardInterrupt):
-        meter.listen(messages)
+    try:
+        with suppress(KeyboardInterrupt):
+            meter.listen(messages)
+    finally:
+        meter.conclude(messages)
     if not meter.has_heard:
         raise UserError(source.why_nothing(messages, arguments.channels))
-    meter.conclude(messages)
     return 0 if meter.channels else 1
 
 

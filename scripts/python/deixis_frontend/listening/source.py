@@ -16,6 +16,7 @@ from typing import Protocol
 from deixis_frontend import lcm_url
 from deixis_frontend.bus import open_bus
 from deixis_frontend.channel_patterns import any_of, channel_pattern
+from deixis_frontend.errors import UserError
 from deixis_frontend.lcm_tools import require_log
 from deixis_frontend.lcm_url import LcmUrl
 from deixis_frontend.number_options import above_zero
@@ -67,7 +68,10 @@ def open_source(arguments: argparse.Namespace) -> Source:
 
 
 class Live:
-    """The messages on the bus, for so many seconds or for ever. Subscribed from the beginning."""
+    """The messages on the bus, for so many seconds or for ever. Subscribed from the beginning.
+
+    Iterating raises UserError when the connection is lost.
+    """
 
     def __init__(self, url: LcmUrl, channels: re.Pattern[str], seconds: float | None) -> None:
         self.name = str(url)
@@ -83,10 +87,16 @@ class Live:
         while end is None or time.monotonic() < end:
             # Not in handle_timeout(): Ctrl-C ends a select at once.
             if select.select([self._bus.fileno()], [], [], _TICK_S)[0]:
-                self._bus.handle_timeout(0)
+                self._handle()
             while self._waiting:
                 yield self._waiting.popleft()
             yield None
+
+    def _handle(self) -> None:
+        try:
+            self._bus.handle_timeout(0)
+        except OSError:
+            raise UserError(f"the connection to '{self.name}' is lost") from None
 
     def _take(self, channel: str, data: bytes) -> None:
         if self._channels.fullmatch(channel):  # LCM's expressions are of another dialect.
