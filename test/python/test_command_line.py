@@ -19,7 +19,8 @@ from deixis_frontend.cli import main
     "demo --seconds -1", "demo --seconds 0", "replay x --speed inf", "replay x --speed 0",
     "replay x --channels (", "log -n -5", "log -n many", "evaluate pointing --data x --seeds 0",
     "evaluate pointing --data x --seeds -1", "evaluate live --rate 0",
-    "evaluate live --seconds inf",
+    "evaluate live --seconds inf", "echo --seconds 0", "echo --count 0", "echo --field [",
+    "hz --window 0", "delay --window nan", "topics --seconds -1", "doctor --seconds inf",
     "train-gestures --data x --output y --noise-px -1",
     "train-gestures --data x --output y --noise-px nan",
 ])
