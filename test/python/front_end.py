@@ -44,7 +44,7 @@ def _environment(url: str) -> dict[str, str]:
 @contextmanager
 def speaking(url: str, *speakers: Callable[[int], tuple[str, bytes]],
              period_s: float = 0.02) -> Iterator[None]:
-    """While the block runs, each speaker (number -> channel, data) publishes from a socket of its own."""
+    """While the block runs, each speaker (number -> channel, data) publishes on a bus of its own."""
     over = threading.Event()
     buses = [lcm.LCM(url) for _ in speakers]
 
@@ -75,7 +75,7 @@ def write_log(path: Path, events: list[Event]) -> Path:
 
 def status(service: str, inputs: tuple[str, ...] = (), outputs: tuple[str, ...] = (), *,
            wrong: int = 0, **values: object) -> service_status_t:
-    """What a running service says; `wrong` messages of the wrong type came on each of its inputs."""
+    """What a running service says; it refused `wrong` messages on each input for their type."""
     message = service_status_t()
     message.service, message.host, message.pid = service, "host", 1
     message.version, message.state = "0.1.0", service_status_t.RUNNING

@@ -139,6 +139,27 @@ def test_count_and_seconds_end_it(log: Path) -> None:
         assert [m["sequence"] for m in yaml.safe_load_all(result.stdout)] == [0, 1]
 
 
+def test_names_cannot_move_the_cursor(tmp_path: Path) -> None:
+    message = tracks()
+    message.camera = "\x1b[2J\x9b2J"
+    log = write_log(tmp_path / "x.lcmlog", [(0, "A\x1b[2J", message.encode()),
+                                            (0, "B\x1b[2J", b"abcdefgh")])
+    for form in ((), ("--json",)):
+        result = deixis(NOWHERE, "echo", "--log", log, *form)
+        assert "A\\x1b[2J" in result.stdout.replace("\\\\", "\\")
+        assert "B\\x1b[2J: type not known" in result.stderr
+        assert not any(c in result.stdout + result.stderr for c in "\x1b\x9b")
+
+
+def test_noise_on_many_channels_is_told_in_few_words(tmp_path: Path) -> None:
+    noise = [(0, f"N{number}", b"%8d" % number) for number in range(1500)]
+    log = write_log(tmp_path / "x.lcmlog", noise)
+    result = deixis(NOWHERE, "echo", "--log", log)
+    *said, total = result.stderr.splitlines()
+    assert result.returncode == 1 and len(said) == 20
+    assert "1 of unknown type on N0" in total and total.endswith("and 981 kinds more")
+
+
 def test_damage_of_the_log_is_told(log: Path) -> None:
     log.write_bytes(log.read_bytes()[:-1])
     assert "it ends in the middle of a message" in deixis(NOWHERE, "echo", "--log", log).stderr
@@ -172,6 +193,8 @@ def test_a_signal_ends_it_with_the_summary(url: str, number: signal.Signals) -> 
 
 def test_a_lost_connection_is_told(tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
+        server.settimeout(30)
+
         def serve() -> None:
             for _ in range(2):  # A look whether it is there, then LCM itself.
                 connection, _ = server.accept()

@@ -205,7 +205,8 @@ def test_two_processes_of_one_service_are_told_apart() -> None:
     for pid in (1, 2):
         message = status("tracker", (), ("HANDS",), pid=pid)
         traffic.take(Arrival(1, "SERVICE_STATUS", message.encode()))
-    assert traffic.channels()[0].publishers == ["tracker (pid 1 on host)", "tracker (pid 2 on host)"]
+    assert traffic.channels()[0].publishers == [
+        "tracker (pid 1 on host)", "tracker (pid 2 on host)"]
 
 
 def test_two_senders_on_one_channel_are_named(url: str) -> None:

@@ -1,4 +1,4 @@
-"""Commands of the front end as cures, with the options that make them mean the same bus and system."""
+"""Commands of the front end as cures, with the options that name the same bus and system."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ _OF_OTHER_THINGS = re.compile(r'dport|sport|"lo"|-i lo\b|ct state|ctstate|icmp')
 
 
 def closing_rule(rules: str, port: int) -> str:
-    """The rule that refuses datagrams to the port, or that all is refused; empty when there is none."""
+    """The rule that refuses datagrams to the port, or that all is refused; empty: there is none."""
     for line in map(str.strip, rules.splitlines()):
         if _names(line, port) and re.search(r"\b(drop|reject)\b", line, re.IGNORECASE):
             return line

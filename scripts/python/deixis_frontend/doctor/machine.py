@@ -38,7 +38,8 @@ def _camera(device: Path) -> Finding:
     if strangers:
         return Finding(WARNING, "camera", f"{device} is in use by {', '.join(strangers)}",
                        f"fuser -v {device}")
-    return Finding(OK, "camera", f"{device} is there" + (f", in use by {users[0]}" if users else ""))
+    use = f", in use by {users[0]}" if users else ""
+    return Finding(OK, "camera", f"{device} is there{use}")
 
 
 def _users(device: Path) -> list[str]:
@@ -79,7 +80,7 @@ class ClockWatch:
         """What became of it since the beginning."""
         moved_s = _offset() - self._offset_s
         if abs(moved_s) > _JUMP_S:
-            return [Finding(PROBLEM, "clock", f"the clock jumped by {moved_s:.3f} s while we looked",
+            return [Finding(PROBLEM, "clock", f"the clock jumped by {moved_s:.3f} s meanwhile",
                             "timedatectl timesync-status")]
         if time.time() < _EARLIEST:
             return [Finding(PROBLEM, "clock", "the clock was never set: it is"

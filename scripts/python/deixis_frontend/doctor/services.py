@@ -14,6 +14,7 @@ from deixis_frontend.layout import Layout
 from deixis_frontend.lcm_url import LcmUrl
 from deixis_frontend.listening.publisher_names import PublisherNames
 from deixis_frontend.listening.traffic import Traffic
+from deixis_frontend.printable import printable
 from deixis_frontend.supervision.control_client import Client
 from deixis_frontend.supervision.system_file import ServiceEntry, System
 
@@ -64,12 +65,13 @@ def _refusals(first: Any, last: Any, service: str, commands: CommandLines) -> li
     findings = []
     for channel in last.channels:
         for drop in channel.drops:
+            name, reason = printable(channel.name), printable(drop.reason)
             is_going_on = drop.count > before.get((channel.name, drop.reason), 0)
             findings.append(Finding(
                 PROBLEM if is_going_on else WARNING, "types",
-                f"{service} has refused {drop.count} messages on {channel.name} ({drop.reason})"
+                f"{service} has refused {drop.count} messages on {name} ({reason})"
                 + ("" if is_going_on else ", none of them now"),
-                commands.on_bus("echo", channel.name, "--count", "5")))
+                commands.on_bus("echo", name, "--count", "5")))
     return findings
 
 
@@ -77,25 +79,27 @@ def loss(traffic: Traffic, granted: int, commands: CommandLines) -> list[Finding
     """Services that miss messages, or that have a smaller buffer than they would get now."""
     findings = []
     for first, last in traffic.statuses():
-        name = traffic.name_of(last)
+        service = traffic.name_of(last)
         if 0 < last.receive_buffer_bytes < granted:
             findings.append(Finding(
-                WARNING, "loss", f"{name} has a receive buffer of {last.receive_buffer_bytes}"
+                WARNING, "loss", f"{service} has a receive buffer of {last.receive_buffer_bytes}"
                 f" bytes, it would get {granted} now",
                 commands.on_system("restart", last.service)))
         before = {channel.name: channel.gaps for channel in first.channels}
-        findings += [Finding(WARNING, "loss", f"{name} misses messages on {channel.name}"
-                             f" ({channel.gaps - before[channel.name]} while we listened)",
-                             commands.on_bus("hz", channel.name))
-                     for channel in last.channels
-                     if channel.gaps > before.get(channel.name, channel.gaps)]
+        for channel in last.channels:
+            lost = channel.gaps - before.get(channel.name, channel.gaps)
+            if lost > 0:
+                name = printable(channel.name)
+                findings.append(Finding(WARNING, "loss", f"{service} misses messages on {name}"
+                                        f" ({lost} while we listened)",
+                                        commands.on_bus("hz", name)))
     return findings or [Finding(OK, "loss", "no service misses messages")]
 
 
 def versions(traffic: Traffic, commands: CommandLines) -> list[Finding]:
     """Services that run since before the last build."""
     return [Finding(PROBLEM, "programs", f"{traffic.name_of(status)} runs as version"
-                    f" {status.version}, the front end is {__version__}",
+                    f" {printable(status.version)}, the front end is {__version__}",
                     commands.on_system("restart", status.service))
             for _, status in traffic.statuses() if status.version != __version__]
 

@@ -8,7 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from deixis_frontend.layout import Layout
-from deixis_frontend.listening.source import Arrival
+from deixis_frontend.listening.source import MOST_CHANNELS, OTHER_CHANNELS, Arrival
+
+_MOST_SAID = 20  # lines on kinds of messages that do not decode
+_MOST_WORDS = 20  # kinds of them in a summary
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,8 @@ class Decoder:
                  self.unknown.items()]
         parts += [f"{count} damaged on {channel} ({reason})" for (channel, reason), count in
                   self.damaged.items()]
-        return ", ".join(parts)
+        more = [f"and {len(parts) - _MOST_WORDS} kinds more"] if len(parts) > _MOST_WORDS else []
+        return ", ".join([*parts[:_MOST_WORDS], *more])
 
     def damaged_on(self, channel: str) -> int:
         """How many messages of a channel did not fit their type."""
@@ -61,15 +65,17 @@ class Decoder:
             self._count_damaged(arrival.channel, "truncated", f"{size} bytes are no message")
             return
         fingerprint = arrival.data[:self._decoding.FINGERPRINT_BYTES].hex()
-        self.unknown[arrival.channel, fingerprint] += 1
-        if self.unknown[arrival.channel, fingerprint] == 1:
-            _say(f"{arrival.channel}: type not known: fingerprint {fingerprint}, {size} bytes")
+        self._count(self.unknown, (arrival.channel, fingerprint),
+                    f"{arrival.channel}: type not known: fingerprint {fingerprint}, {size} bytes")
 
     def _count_damaged(self, channel: str, reason: str, text: str) -> None:
-        self.damaged[channel, reason] += 1
-        if self.damaged[channel, reason] == 1:
-            _say(f"{channel}: {text}")
+        self._count(self.damaged, (channel, reason), f"{channel}: {text}")
 
-
-def _say(text: str) -> None:
-    print(f"deixis: {text}", file=sys.stderr, flush=True)
+    @staticmethod
+    def _count(counts: Counter[tuple[str, str]], kind: tuple[str, str], text: str) -> None:
+        """Says the first of a kind. Noise has no end of kinds: only so many are told apart."""
+        if kind not in counts and len(counts) >= MOST_CHANNELS:
+            kind = (OTHER_CHANNELS, "other")
+        counts[kind] += 1
+        if counts[kind] == 1 and len(counts) <= _MOST_SAID:
+            print(f"deixis: {text}", file=sys.stderr, flush=True)

@@ -20,19 +20,38 @@ from deixis_frontend.errors import UserError
 from deixis_frontend.lcm_tools import require_log
 from deixis_frontend.lcm_url import LcmUrl
 from deixis_frontend.number_options import above_zero
+from deixis_frontend.printable import printable
 from deixis_lcm.log_events import EventReader
 
 _TICK_S = 0.1
 _QUEUE = 500  # messages that wait while the tool is busy; LCM drops what is more
+MOST_CHANNELS = 1000  # more than any robot has: noise is not to fill the memory
+OTHER_CHANNELS = "(other channels)"
 
 
 @dataclass(frozen=True)
 class Arrival:
-    """A message as bytes. `time_us`: when it arrived here, or at the logger; wall clock."""
+    """A message as bytes. `time_us`: when it arrived here, or at the logger; wall clock.
+
+    `channel` can be printed whatever was sent; see ChannelNames.
+    """
 
     time_us: int
     channel: str
     data: bytes
+
+
+class ChannelNames:
+    """Names of channels as they are shown: printable, and those beyond a thousand under one."""
+
+    def __init__(self) -> None:
+        self._names: dict[str, str] = {}
+
+    def shown(self, channel: str) -> str:
+        """The name to show."""
+        if channel not in self._names and len(self._names) >= MOST_CHANNELS:
+            return OTHER_CHANNELS
+        return self._names.setdefault(channel, printable(channel) or "(no name)")
 
 
 class Source(Protocol):
@@ -77,6 +96,7 @@ class Live:
         self.name = str(url)
         self.url: LcmUrl | None = url
         self._channels = channels
+        self._names = ChannelNames()
         self._seconds = seconds
         self._waiting: deque[Arrival] = deque()
         self._bus = open_bus(url)
@@ -100,7 +120,8 @@ class Live:
 
     def _take(self, channel: str, data: bytes) -> None:
         if self._channels.fullmatch(channel):  # LCM's expressions are of another dialect.
-            self._waiting.append(Arrival(time.time_ns() // 1000, channel, data))
+            arrived_us = time.time_ns() // 1000
+            self._waiting.append(Arrival(arrived_us, self._names.shown(channel), data))
 
 
 class Log:
@@ -112,6 +133,7 @@ class Log:
         self.name = str(path)
         self._path = path
         self._channels = channels
+        self._names = ChannelNames()
         self._length_us = None if seconds is None else seconds * 1e6
 
     def __iter__(self) -> Iterator[Arrival | None]:
@@ -122,7 +144,8 @@ class Log:
                 if self._length_us is not None and event.time_us - begin_us > self._length_us:
                     break
                 if self._channels.fullmatch(event.channel):
-                    yield Arrival(event.time_us, event.channel, events.data(event))
+                    yield Arrival(event.time_us, self._names.shown(event.channel),
+                                  events.data(event))
             if events.damage():
                 print(f"deixis: {self.name}: {events.damage()}", file=sys.stderr)
 

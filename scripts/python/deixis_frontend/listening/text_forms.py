@@ -36,7 +36,7 @@ def as_json(value: Any) -> str:
 
     Bytes are base64.
     """
-    return json.dumps(_with_json_values(value), allow_nan=False, ensure_ascii=False)
+    return json.dumps(_with_json_values(value), allow_nan=False)
 
 
 def _with_json_values(value: Any) -> Any:

@@ -12,10 +12,12 @@ from deixis_frontend.listening.decoder import Decoder
 from deixis_frontend.listening.rates import Loss
 from deixis_frontend.listening.source import Arrival, Source
 from deixis_frontend.listening.udp_senders import Senders, SenderWatch
+from deixis_frontend.printable import printable
 
 STATUS_TYPE = "deixis.service_status_t"
 # One publisher that begins anew steps back once; two that alternate do it again and again.
 _STEPS_BACK_OF_TWO = 2
+_MOST_SERVICES = 1000  # noise is not to fill the memory
 
 
 @dataclass
@@ -92,19 +94,22 @@ class Traffic:
             channel.publishers, channel.subscribers, channel.wrong_types = [], [], {}
         for _, status in self.statuses():
             for known in status.channels:
-                self._note(self._channel(known.name), known, self.name_of(status))
+                self._note(self._channel(printable(known.name)), known, self.name_of(status))
         return sorted(self._channels.values(), key=lambda channel: channel.name)
 
     def name_of(self, status: Any) -> str:
         """The service's name; with host and pid when there are two of it."""
-        name = f"{status.service}/{status.instance}" if status.instance else status.service
+        name = printable(f"{status.service}/{status.instance}".removesuffix("/"))
         alike = [other for _, other in self.statuses()
                  if (other.service, other.instance) == (status.service, status.instance)]
-        return name if len(alike) < 2 else f"{name} (pid {status.pid} on {status.host})"
+        return name if len(alike) < 2 else f"{name} (pid {status.pid} on {printable(status.host)})"
 
     def _hear(self, status: Any) -> None:
-        heard = self._statuses.setdefault(self._stamps.speaker_of(status), [status, status])
-        heard[1] = status
+        speaker = self._stamps.speaker_of(status)
+        if speaker in self._statuses:
+            self._statuses[speaker][1] = status
+        elif len(self._statuses) < _MOST_SERVICES:
+            self._statuses[speaker] = [status, status]
 
     def _channel(self, name: str) -> Channel:
         return self._channels.setdefault(name, Channel(name))

@@ -1,7 +1,8 @@
 """Who sends on which channel of a UDP bus, by the addresses that datagrams come from.
 
-LCM's datagrams: a message that fits in one begins with "LC02", a number, the channel; one in fragments with
-"LC03", number, size, offset, index, count, and in its first fragment the channel. All numbers big-endian.
+LCM's datagrams: a message that fits in one begins with "LC02", a number, the channel; one in
+fragments with "LC03", number, size, offset, index, count, and in its first fragment the channel.
+All numbers are big-endian.
 """
 
 from __future__ import annotations
@@ -15,6 +16,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from deixis_frontend.lcm_url import LcmUrl
+from deixis_frontend.listening.source import MOST_CHANNELS
+from deixis_frontend.printable import printable
 from deixis_frontend.supervision.process_facts import command_name
 
 _SMALL, _FRAGMENT = b"LC02", b"LC03"
@@ -29,7 +32,7 @@ Address = tuple[str, int]
 
 @dataclass
 class Sender:
-    """One address that speaks on a channel, and when it was heard, seconds of the monotonic clock."""
+    """One address that speaks on a channel, and when it was heard (monotonic clock)."""
 
     address: Address
     first_s: float
@@ -43,7 +46,9 @@ class Senders:
     by_channel: dict[str, dict[Address, Sender]] = field(default_factory=dict)
 
     def add(self, channel: str, address: Address, now_s: float) -> None:
-        """A message from there."""
+        """A message from there. Noise is not to fill the memory."""
+        if channel not in self.by_channel and len(self.by_channel) >= MOST_CHANNELS:
+            return
         sender = self.by_channel.setdefault(channel, {}).setdefault(
             address, Sender(address, now_s, now_s))
         sender.last_s = now_s
@@ -62,7 +67,7 @@ def channel_of(datagram: bytes) -> str | None:
     if offset is None:
         return None
     end = datagram.find(b"\0", offset, offset + _LONGEST_CHANNEL + 1)
-    return datagram[offset:end].decode(errors="replace") if end > offset else None
+    return printable(datagram[offset:end].decode(errors="replace")) if end > offset else None
 
 
 def _channel_offset(datagram: bytes) -> int | None:
