@@ -39,6 +39,14 @@ def test_recording_needs_expressions_that_are_some(capsys: pytest.CaptureFixture
     assert "'(' is no regular expression" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("command", ["record", "echo", "hz"])
+def test_expressions_that_cannot_stand_within_others_are_refused(
+        command: str, url: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([command, "(?i)camera", "B", "-l", url]) == 1
+    [line] = capsys.readouterr().err.splitlines()
+    assert "write for example (?i:name)" in line
+
+
 @pytest.mark.parametrize("arguments", [
     ["train-hands", "--data", ".", "--output"], ["evaluate", "hands", "--data", ".", "--json"],
     ["demo", "--no-build", "--output"], ["record", "--output"]])

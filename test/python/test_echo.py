@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import base64
+import importlib
 import json
 import math
 import signal
@@ -14,8 +15,9 @@ from pathlib import Path
 import pytest
 import yaml
 from deixis import hand_t, hand_tracks_t
-from deixis_lcm import images
+from deixis_lcm import decoding, images
 from front_end import deixis, deixis_beside, speaking, write_log
+from test_types import STRUCTS, Filler
 
 from deixis_frontend.listening import fields, text_forms
 
@@ -211,3 +213,16 @@ def test_a_lost_connection_is_told(tmp_path: Path) -> None:
     assert result.returncode == 1
     assert f"the connection to '{url}' is lost" in result.stderr
     assert "Traceback" not in result.stderr
+
+
+@pytest.mark.parametrize("name", STRUCTS)
+def test_every_type_can_be_printed(name: str) -> None:
+    package, struct = name.split(".")
+    filler = Filler(lambda full: getattr(importlib.import_module(full.split(".")[0]),
+                                         full.split(".")[1]))
+    message = decoding.decode_as(getattr(importlib.import_module(package), struct),
+                                 filler.message(name).encode())
+    plain = fields.plain(message, is_full=True)
+    assert list(plain) == message.__slots__
+    assert yaml.safe_load(text_forms.as_yaml(plain)) == plain
+    assert list(json.loads(text_forms.as_json(plain))) == message.__slots__

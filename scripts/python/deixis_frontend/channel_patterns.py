@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 import re
 
+from deixis_frontend.errors import UserError
+
 
 def channel_pattern(text: str) -> re.Pattern[str]:
     """The expression; argparse tells what is wrong with it."""
@@ -15,6 +17,13 @@ def channel_pattern(text: str) -> re.Pattern[str]:
 
 
 def any_of(channels: list[re.Pattern[str]]) -> re.Pattern[str]:
-    """One expression for all, also as LCM reads it (between ^ and $); of none: every channel."""
+    """One expression for all, also as LCM reads it (between ^ and $); of none: every channel.
+
+    Raises UserError when they do not go together.
+    """
     alternatives = "|".join(channel.pattern for channel in channels)
-    return re.compile(f"({alternatives})" if channels else ".*")
+    try:
+        return re.compile(f"({alternatives})" if channels else ".*")
+    except re.error as error:
+        raise UserError(f"the channels {alternatives} do not go together: {error}:"
+                        " write for example (?i:name) in place of (?i)name") from None
