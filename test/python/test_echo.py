@@ -193,7 +193,8 @@ def test_a_signal_ends_it_with_the_summary(url: str, number: signal.Signals) -> 
     assert "Traceback" not in said and "of unknown type on X" in said
 
 
-def test_a_lost_connection_is_told(tmp_path: Path) -> None:
+@pytest.mark.parametrize("heard_bytes", [0, 100])  # It ends before the subscription, or after.
+def test_a_lost_connection_is_told(heard_bytes: int) -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
         server.settimeout(30)
 
@@ -203,7 +204,7 @@ def test_a_lost_connection_is_told(tmp_path: Path) -> None:
                 with connection:
                     if connection.recv(8):
                         connection.sendall(bytes.fromhex("287617fa00000100"))
-                        connection.recv(100)
+                        connection.recv(heard_bytes)
 
         thread = threading.Thread(target=serve)
         thread.start()

@@ -105,17 +105,18 @@ class Live:
     def __iter__(self) -> Iterator[Arrival | None]:
         end = None if self._seconds is None else time.monotonic() + self._seconds
         while end is None or time.monotonic() < end:
-            # Not in handle_timeout(): Ctrl-C ends a select at once.
-            if select.select([self._bus.fileno()], [], [], _TICK_S)[0]:
-                self._handle()
+            self._handle()
             while self._waiting:
                 yield self._waiting.popleft()
             yield None
 
     def _handle(self) -> None:
+        """Takes one message if one comes within a tick."""
         try:
-            self._bus.handle_timeout(0)
-        except OSError:
+            # Not in handle_timeout(): Ctrl-C ends a select at once.
+            if select.select([self._bus.fileno()], [], [], _TICK_S)[0]:
+                self._bus.handle_timeout(0)
+        except (OSError, ValueError):  # ValueError: LCM has no descriptor any more.
             raise UserError(f"the connection to '{self.name}' is lost") from None
 
     def _take(self, channel: str, data: bytes) -> None:
