@@ -247,6 +247,13 @@ def test_modules_are_compared_with_those_that_are_tested(monkeypatch: pytest.Mon
     assert missing.level == PROBLEM and missing.cure == "scripts/setup"
 
 
+def test_a_missing_recorder_is_a_problem(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert examine("recorder", installation.recorder)[0].level == OK
+    monkeypatch.setattr(shutil, "which", lambda *_, **__: None)
+    [finding] = examine("recorder", installation.recorder)
+    assert finding.level == PROBLEM and "scripts/setup" in finding.text
+
+
 def heard(*statuses: Any) -> Traffic:
     traffic = Traffic(layout.find())
     for message in statuses:

@@ -39,6 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
     report = _Report(is_quiet=arguments.json)
     _examine_network(report, url, arguments)
     report.take("python", lambda: installation.python(layout))
+    report.take("recorder", installation.recorder)
     clock = machine.ClockWatch()
     report.take("system", lambda: _of_system(arguments, url, layout))
     if report.has_bus:

@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from deixis_frontend import __version__
+from deixis_frontend import __version__, lcm_tools
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding
 from deixis_frontend.errors import UserError
 from deixis_frontend.layout import Layout
@@ -58,6 +58,11 @@ def programs(layout: Layout, system: System) -> list[Finding]:
     names = dict.fromkeys(entry.program for entry in system.services.values())
     findings = [fault for name in names if (fault := _program_fault(layout, name, cure))]
     return findings or [Finding(OK, "programs", f"{len(names)} programs of version {__version__}")]
+
+
+def recorder() -> list[Finding]:
+    """LCM's logger, which `deixis record` runs."""
+    return [Finding(OK, "recorder", f"{lcm_tools.find_logger()} is there")]
 
 
 def _program_fault(layout: Layout, name: str, cure: str) -> Finding | None:
