@@ -114,6 +114,8 @@ def test_paths_that_do_not_fit_the_type_say_why(path: str, fault: str) -> None:
 def test_bytes_are_told_by_their_size_unless_wanted_in_full(log: Path) -> None:
     short = yaml.safe_load(deixis(NOWHERE, "echo", "--log", log, "CAMERA").stdout)
     assert short["data"] == "<102 bytes: ffd8000102030405...>"
+    assert fields.plain(b"30", is_full=False) == '<2 bytes: "30">'
+    assert fields.plain(b"", is_full=False) == "<0 bytes>"
     jpeg = b"\xff\xd8" + bytes(range(100))
     full = deixis(NOWHERE, "echo", "--log", log, "CAMERA", "--full")
     assert yaml.safe_load(full.stdout)["data"] == jpeg

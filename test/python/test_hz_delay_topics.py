@@ -218,6 +218,9 @@ def test_two_senders_on_one_channel_are_named(url: str) -> None:
     assert "2 publishers at once: " in found["TWO"]["several_publishers"]
     assert found["TWO"]["several_publishers"].count("python") == 2
     assert found["ONE"]["several_publishers"] == "" and len(found["ONE"]["publishers"]) == 1
+    seconds = json.loads(result.stdout)["seconds"]
+    assert seconds >= 1.0
+    assert found["ONE"]["rate_hz"] == found["ONE"]["messages"] / seconds
 
 
 def test_channels_are_read_from_datagrams() -> None:

@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def describe(channel: Channel, traffic: Traffic, names: PublisherNames) -> dict[str, Any]:
-    """A channel as plain values; rates are from the first message of all to the last."""
+    """A channel as plain values."""
     seconds = traffic.seconds
     unknown = [fingerprint for name, fingerprint in traffic.decoder.unknown if name == channel.name]
     return {

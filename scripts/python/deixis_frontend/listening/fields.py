@@ -91,5 +91,7 @@ def _alternatives(value: Any) -> str:
 
 
 def _shortened(data: bytes) -> str:
-    begin = data[:_SHOWN_BYTES].hex()
-    return f"<{len(data)} bytes{': ' if data else ''}{begin}{'...' if data[_SHOWN_BYTES:] else ''}>"
+    begin, more = data[:_SHOWN_BYTES], "..." if data[_SHOWN_BYTES:] else ""
+    text = begin.decode("ascii", errors="replace")
+    shown = f'"{text}"' if text.isascii() and text.isprintable() else begin.hex()
+    return f"<{len(data)} bytes: {shown}{more}>" if data else "<0 bytes>"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections import Counter
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field
@@ -61,6 +62,7 @@ class Traffic:
         self._statuses: dict[tuple[Any, ...], list[Any]] = {}  # first and last of each service
         self._first_us: int | None = None
         self._last_us = 0
+        self.listened_s: float | None = None  # None: of a log
 
     def take(self, arrival: Arrival) -> None:
         """One message."""
@@ -80,7 +82,9 @@ class Traffic:
 
     @property
     def seconds(self) -> float:
-        """From the first message to the last."""
+        """How long was listened; of a log: from the first message to the last."""
+        if self.listened_s is not None:
+            return self.listened_s
         return 0.0 if self._first_us is None else (self._last_us - self._first_us) / 1e6
 
     def statuses(self) -> list[tuple[Any, Any]]:
@@ -131,8 +135,10 @@ def listen(messages: Source, traffic: Traffic) -> Senders:
         senders = Senders()
         if messages.url and messages.url.provider == "udpm":
             senders = stack.enter_context(SenderWatch(messages.url)).senders
+        began = time.monotonic()
         with suppress(KeyboardInterrupt):
             for arrival in messages:
                 if arrival is not None:
                     traffic.take(arrival)
+        traffic.listened_s = time.monotonic() - began if messages.url else None
     return senders
