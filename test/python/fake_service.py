@@ -37,6 +37,7 @@ def main() -> None:
 def read_arguments() -> tuple[argparse.Namespace, dict[str, str]]:
     """The options that every service has, and what --set says."""
     parser = argparse.ArgumentParser()
+    parser.add_argument("--version", action="version", version="deixis-fake 0.1.0")
     parser.add_argument("--lcm-url")
     parser.add_argument("--channel-prefix", default="")
     parser.add_argument("--instance", default="")

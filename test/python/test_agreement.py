@@ -7,6 +7,8 @@ import re
 from pathlib import Path
 
 from deixis_frontend import __version__, lcm_url
+from deixis_frontend.cli import COMMANDS
+from deixis_frontend.listening import rates
 
 
 def found(path: Path, pattern: str) -> str:
@@ -26,3 +28,13 @@ def test_all_ask_for_the_same_receive_buffer_and_the_kernel_is_set_to_allow_it(
     limits = (found(repository / "scripts/setup", r"\nreceive_buffer_bytes=(\d+)"),
               found(repository / "common/transport/bus.cpp", r"net\.core\.rmem_max=(\d+)"))
     assert [int(limit) for limit in limits] == [lcm_url.RECEIVE_BUFFER_BYTES] * 2
+
+
+def test_gaps_are_counted_as_the_services_count_them(repository: Path) -> None:
+    largest = found(repository / "common/transport/bus.cpp", r"kLargestGap = ([\d']+);")
+    assert int(largest.replace("'", "")) == rates.LARGEST_GAP
+
+
+def test_the_readme_has_every_command_and_no_other(repository: Path) -> None:
+    text = (repository / "scripts/README.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"^scripts/deixis ([a-z-]+)", text, re.MULTILINE)) == set(COMMANDS)

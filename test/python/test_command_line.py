@@ -19,7 +19,8 @@ from deixis_frontend.cli import main
     "demo --seconds -1", "demo --seconds 0", "replay x --speed inf", "replay x --speed 0",
     "replay x --channels (", "log -n -5", "log -n many", "evaluate pointing --data x --seeds 0",
     "evaluate pointing --data x --seeds -1", "evaluate live --rate 0",
-    "evaluate live --seconds inf",
+    "evaluate live --seconds inf", "echo --seconds 0", "echo --count 0", "echo --field [",
+    "hz --window 0", "delay --window nan", "topics --seconds -1", "doctor --seconds inf",
     "train-gestures --data x --output y --noise-px -1",
     "train-gestures --data x --output y --noise-px nan",
 ])
@@ -36,6 +37,14 @@ def test_recording_needs_expressions_that_are_some(capsys: pytest.CaptureFixture
         main(["record", "("])
     assert end.value.code == 2
     assert "'(' is no regular expression" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", ["record", "echo", "hz"])
+def test_expressions_that_cannot_stand_within_others_are_refused(
+        command: str, url: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([command, "(?i)camera", "B", "-l", url]) == 1
+    [line] = capsys.readouterr().err.splitlines()
+    assert "write for example (?i:name)" in line
 
 
 @pytest.mark.parametrize("arguments", [

@@ -16,7 +16,7 @@ import pytest
 from deixis_frontend import layout, lcm_url
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation.offline_chain import results_of_video
-from deixis_lcm import logs
+from deixis_lcm import decoding, logs
 
 CLIP_FPS = 15.0
 # A recognition counts from the gesture's start to half a second after its hold.
@@ -147,10 +147,10 @@ def collect(url: str, seconds: float, enough) -> dict[str, list]:
     import lcm
 
     heard: dict[str, list] = {}
-    types = logs.types_by_fingerprint()
+    types = decoding.types_by_fingerprint()
     bus = lcm.LCM(str(lcm_url.parse(url).with_receive_buffer()))
     bus.subscribe(".*", lambda channel, data: heard.setdefault(channel, []).append(
-        logs.decode(data, types)))
+        decoding.decode(data, types)))
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline and not enough(heard):
         bus.handle_timeout(100)

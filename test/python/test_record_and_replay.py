@@ -15,16 +15,7 @@ from pathlib import Path
 import lcm
 import pytest
 from bench import becomes_true, heed_interrupts
-
-
-def deixis(url: str, *arguments: object, prefix: tuple[str, ...] = (),
-           **environment: str) -> subprocess.CompletedProcess[str]:
-    """Runs a command of the front end to its end."""
-    command = [*prefix, sys.executable, "-m", "deixis_frontend", *map(str, arguments)]
-    path = os.pathsep.join(sys.path)
-    return subprocess.run(command, env={**os.environ, "LCM_DEFAULT_URL": url, "PYTHONPATH": path,
-                                        **environment},
-                          capture_output=True, text=True, check=False, timeout=30)
+from front_end import deixis, speaking
 
 
 @contextmanager
@@ -121,6 +112,13 @@ def test_records_the_channels_that_are_named(url: str, tmp_path: Path) -> None:
     with talking(url):
         deixis(url, "record", "B", "C.*", "--seconds", 0.5, "--output", output)
     assert channels(output) == {"B"}
+
+
+def test_a_name_is_the_whole_name_among_several_too(url: str, tmp_path: Path) -> None:
+    output = tmp_path / "x.lcmlog"
+    with speaking(url, *(lambda n, name=name: (name, b"data") for name in ("A", "AX", "XB", "B"))):
+        deixis(url, "record", "A", "B", "--seconds", 0.5, "--output", output)
+    assert channels(output) == {"A", "B"}
 
 
 def test_does_not_write_over_a_recording(url: str, log: Path) -> None:

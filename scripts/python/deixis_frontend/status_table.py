@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from deixis_frontend import text_table
+
 _HEADER = ("service", "state", "pid", "uptime", "restarts", "in Hz", "out Hz", "lost", "work ms",
            "age ms", "CPU %", "MB")
 _ALL_CHANNELS = "*"  # as the C++ services name what cannot be told by channel
@@ -13,10 +15,9 @@ _LEFT = 2  # columns that are flush left
 def render(status: dict[str, Any]) -> str:
     """The table, and below it a line for everything that needs words."""
     rows = [_HEADER, *(_row(service) for service in status["services"])]
-    widths = [max(len(row[column]) for row in rows) for column in range(len(_HEADER))]
     lines = [f"{status['system']} on {status['lcm_url']}, supervisor pid"
              f" {status['supervisor_pid']}, up {duration(status['uptime_s'])}"]
-    lines += [_line(row, widths) for row in rows]
+    lines += text_table.lines(rows, _LEFT)
     lines += [status["trouble"]] if status.get("trouble") else []
     lines += [note for service in status["services"] for note in _notes(service)]
     return "\n".join(lines)
@@ -79,9 +80,3 @@ def _notes(service: dict[str, Any]) -> list[str]:
 
 def _text(value: object) -> str:
     return "-" if value is None else str(value)
-
-
-def _line(row: tuple[str, ...], widths: list[int]) -> str:
-    cells = [cell.ljust(width) if column < _LEFT else cell.rjust(width)
-             for column, (cell, width) in enumerate(zip(row, widths, strict=True))]
-    return "  ".join(cells).rstrip()

@@ -5,46 +5,13 @@
 
 The type of a message is told by its fingerprint; one that is not known stays bytes.
 """
-import importlib
-import io
 import os
-import struct
 import warnings
 
 import lcm
 
+from deixis_lcm.decoding import decode, types_by_fingerprint
 from deixis_lcm.log_events import EventReader
-
-PACKAGES = ("deixis", "bot_core", "kinect")
-
-
-def types_by_fingerprint(packages=PACKAGES):
-    """All generated types: 8 bytes -> class. ImportError if the generated packages are not on the path."""
-    types = {}
-    for package in packages:
-        for name, value in vars(importlib.import_module(package)).items():
-            if isinstance(value, type) and hasattr(value, "_get_packed_fingerprint"):
-                types[value._get_packed_fingerprint()] = value
-    return types
-
-
-def decode(data, types=None):
-    """The message in `data` (bytes), or `data` itself if its fingerprint is not known.
-
-    ValueError if the fingerprint is known and the rest does not fit.
-    """
-    data = bytes(data)
-    message_type = (types_by_fingerprint() if types is None else types).get(data[:8])
-    if message_type is None:
-        return data
-    stream = io.BytesIO(data)
-    try:
-        message = message_type.decode(stream)
-    except (struct.error, UnicodeDecodeError, IndexError, OverflowError, MemoryError) as error:
-        raise ValueError(f"{_name(message_type)} of {len(data)} bytes does not decode: {error}") from None
-    if stream.tell() != len(data):
-        raise ValueError(f"{_name(message_type)} ends after {stream.tell()} of {len(data)} bytes")
-    return message
 
 
 def read(path, channels=None):
@@ -66,12 +33,13 @@ def read(path, channels=None):
             if channels is not None and event.channel not in channels:
                 continue
             try:
-                message = decode(events.data(event), types)
+                data = events.data(event)
+                message = decode(data, types)
             except ValueError as error:
                 undecodable += 1
                 reason = f"{event.channel} at {event.time_us} us: {error}"
                 continue
-            yield event.time_us, event.channel, message
+            yield event.time_us, event.channel, data if message is None else message
         if count == 0 and events.damaged_bytes:
             raise ValueError(f"{path} is no LCM log: no event begins in it")
         if undecodable:
@@ -109,7 +77,3 @@ class Writer:
 
     def __exit__(self, *_):
         self.close()
-
-
-def _name(message_type):
-    return f"{message_type.__module__.partition('.')[0]}.{message_type.__name__}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import re
 import signal
 import subprocess
 import sys
@@ -13,7 +12,7 @@ from pathlib import Path
 
 from deixis_frontend import layout as layouts
 from deixis_frontend import lcm_url
-from deixis_frontend.channel_patterns import channel_pattern
+from deixis_frontend.channel_patterns import any_of, channel_pattern
 from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
 from deixis_frontend.interrupts import end_as_by_ctrl_c, held_back
@@ -41,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
     url = lcm_url.choose(arguments.lcm_url)
     lcm_url.require_bus(url)
     command = [find_logger(), url_option(url), "--quiet", "--force",
-               f"--channel={_pattern(arguments.channels)}"]
+               f"--channel={any_of(arguments.channels).pattern}"]
     output = arguments.output or _default_output()
     _make_folder(output.parent)
     file = UnfinishedFile(output, "--output", may_replace=arguments.force)
@@ -70,10 +69,6 @@ def _make_folder(folder: Path) -> None:
         raise UserError(f"the folder {folder} cannot be made: {error.strerror}:"
                         " name another --output") from None
     print(f"created the folder {folder}", flush=True)
-
-
-def _pattern(channels: list[re.Pattern[str]]) -> str:
-    return "|".join(f"({channel.pattern})" for channel in channels) if channels else ".*"
 
 
 def _wait(logger: subprocess.Popen[str], seconds: float | None, file: UnfinishedFile,

@@ -29,6 +29,15 @@ def resident_bytes(pid: int) -> int | None:
         return None
 
 
+def command_name(pid: int) -> str:
+    """Name of the program and its pid, for people."""
+    try:
+        words = Path(f"/proc/{pid}/cmdline").read_bytes().decode(errors="replace").split("\0")
+    except OSError:
+        words = [""]
+    return f"{Path(words[0]).name or 'a process'} pid {pid}"
+
+
 class CpuMeter:
     """Share of one core that a process used between two calls."""
 

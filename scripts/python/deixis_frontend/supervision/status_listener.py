@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import re
 from collections.abc import Callable
 from typing import Any
@@ -24,8 +25,9 @@ class StatusListener:
                  on_status: Callable[[Any], None]) -> None:
         layout.use_types()
         from deixis import service_status_t
+        from deixis_lcm.decoding import decode_as
 
-        self._decode = service_status_t.decode
+        self._decode = functools.partial(decode_as, service_status_t)
         self._on_status = on_status
         self._bus = open_bus(url)
         self._bus.subscribe(re.escape(prefix + CHANNEL), self._handle)

@@ -1,0 +1,133 @@
+"""What running services say, and what is heard of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from deixis_frontend import __version__
+from deixis_frontend.doctor.command_lines import CommandLines
+from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding
+from deixis_frontend.layout import Layout
+from deixis_frontend.lcm_url import LcmUrl
+from deixis_frontend.listening.publisher_names import PublisherNames
+from deixis_frontend.listening.traffic import Traffic
+from deixis_frontend.printable import printable
+from deixis_frontend.supervision.control_client import Client
+from deixis_frontend.supervision.system_file import ServiceEntry, System
+
+_CAMERA_PROGRAM = "deixis-camera-driver"
+
+
+def supervisor(client: Client, system: System, url: LcmUrl) -> list[Finding]:
+    """Whether the system runs, and on the bus that we look at."""
+    if not client.is_supervised():
+        return [Finding(OK, "system", f"'{system.name}' does not run")]
+    running = client.command("status", [])["status"]["lcm_url"]
+    if running == str(url):
+        return [Finding(OK, "system", f"'{system.name}' runs on {url}")]
+    return [Finding(WARNING, "system", f"'{system.name}' runs on {running}, we look at {url}",
+                    f"deixis doctor -l '{running}'")]
+
+
+def publishers(traffic: Traffic, names: PublisherNames,
+               commands: CommandLines) -> list[Finding]:
+    """More than one publisher on a channel that is made for one."""
+    findings = [Finding(PROBLEM, "publishers", f"{channel.name}: {several}: stop one of them",
+                        commands.on_bus("topics"))
+                for channel in traffic.channels() if (several := names.several(channel))]
+    heard = sum(channel.messages > 0 for channel in traffic.channels())
+    return findings or [Finding(OK, "publishers", f"{heard} channels, each with one publisher"
+                                if heard else "nobody speaks on this bus")]
+
+
+def types(traffic: Traffic, commands: CommandLines) -> list[Finding]:
+    """Channels on which messages do not fit together or do not decode."""
+    findings = []
+    for channel in traffic.channels():
+        show = commands.on_bus("echo", channel.name, "--count", "5")
+        if len(channel.types) > 1:
+            findings.append(Finding(PROBLEM, "types", f"{channel.name} has messages of several"
+                                    f" types: {', '.join(channel.types)}", show))
+        if damaged := traffic.decoder.damaged_on(channel.name):
+            findings.append(Finding(PROBLEM, "types", f"{damaged} messages on {channel.name} do"
+                                    " not decode", show))
+    findings += [finding for first, last in traffic.statuses()
+                 for finding in _refusals(first, last, traffic.name_of(last), commands)]
+    return findings or [Finding(OK, "types", "every message is of one type per channel")]
+
+
+def _refusals(first: Any, last: Any, service: str, commands: CommandLines) -> list[Finding]:
+    before = {(channel.name, drop.reason): drop.count
+              for channel in first.channels for drop in channel.drops}
+    findings = []
+    for channel in last.channels:
+        for drop in channel.drops:
+            name, reason = printable(channel.name), printable(drop.reason)
+            is_going_on = drop.count > before.get((channel.name, drop.reason), 0)
+            findings.append(Finding(
+                PROBLEM if is_going_on else WARNING, "types",
+                f"{service} has refused {drop.count} messages on {name} ({reason})"
+                + ("" if is_going_on else ", none of them now"),
+                commands.on_bus("echo", name, "--count", "5")))
+    return findings
+
+
+def loss(traffic: Traffic, granted: int, commands: CommandLines) -> list[Finding]:
+    """Services that miss messages, or that have a smaller buffer than they would get now."""
+    findings = []
+    for first, last in traffic.statuses():
+        service = traffic.name_of(last)
+        if 0 < last.receive_buffer_bytes < granted:
+            findings.append(Finding(
+                WARNING, "loss", f"{service} has a receive buffer of {last.receive_buffer_bytes}"
+                f" bytes, it would get {granted} now",
+                commands.on_system("restart", last.service)))
+        before = {channel.name: channel.gaps for channel in first.channels}
+        for channel in last.channels:
+            lost = channel.gaps - before.get(channel.name, channel.gaps)
+            if lost > 0:
+                name = printable(channel.name)
+                findings.append(Finding(WARNING, "loss", f"{service} misses messages on {name}"
+                                        f" ({lost} while we listened)",
+                                        commands.on_bus("hz", name)))
+    return findings or [Finding(OK, "loss", "no service misses messages")]
+
+
+def versions(traffic: Traffic, commands: CommandLines) -> list[Finding]:
+    """Services that run since before the last build."""
+    return [Finding(PROBLEM, "programs", f"{traffic.name_of(status)} runs as version"
+                    f" {printable(status.version)}, the front end is {__version__}",
+                    commands.on_system("restart", status.service))
+            for _, status in traffic.statuses() if status.version != __version__]
+
+
+def wanted_camera(system: System, layout: Layout) -> str | None:
+    """The video device that a service which is started by default is to open, if one is."""
+    started = system.with_needs(system.resolve(list(system.start)))
+    for entry in (system.services[name] for name in started):
+        if entry.program == _CAMERA_PROGRAM:
+            return _device(entry, system, layout)
+    return None
+
+
+def _device(entry: ServiceEntry, system: System, layout: Layout) -> str | None:
+    file = layout.config_file(entry.config or f"{entry.service}.yaml", system.path.parent)
+    source = _source(file)
+    kind = entry.settings.get("source.kind", source.get("kind", "device"))
+    path = str(entry.settings.get("source.path", source.get("path", "0")))
+    if kind != "device":
+        return None
+    return f"/dev/video{path}" if path.isdigit() else path
+
+
+def _source(file: Path) -> dict[str, Any]:
+    """The section `source` of the driver's file; what is wrong with it, the driver itself tells."""
+    try:
+        content = yaml.safe_load(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError, yaml.YAMLError):
+        return {}
+    section = content.get("source") if isinstance(content, dict) else None
+    return section if isinstance(section, dict) else {}
