@@ -34,6 +34,7 @@ COMMANDS: dict[str, Command] = {
     "demo": Command(f"{_PACKAGE}.demo", "play a clip through all services, say what is pointed at"),
     "record": Command(f"{_PACKAGE}.record", "write the messages on the bus to a log file"),
     "replay": Command(f"{_PACKAGE}.replay", "publish the messages of a log file"),
+    "spy": Command(f"{_PACKAGE}.spy", "watch messages, pictures and people in windows (lcm-spy)"),
     "run-offline": Command(f"{_PACKAGE}.run_offline", "log in, services, log out, without a bus"),
     "evaluate": Command(f"{_PACKAGE}.evaluate", "measure results against recordings with truth"),
     "train-gestures": Command("deixis_frontend.training.gestures", "learn gesture models"),
