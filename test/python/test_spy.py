@@ -162,7 +162,7 @@ def standing_person() -> object:
 def open_window(spy: Spy, channel: str, box: tuple[int, int, int, int]) -> None:
     """Waits until the channel is in the table and opens its window by a double click."""
     assert becomes_true(lambda: spy.ask(f"row {channel}") != "none", PATIENCE_S), spy.said
-    spy.ask(f"open {channel} {' '.join(map(str, box))}")
+    assert spy.ask(f"open {channel} {' '.join(map(str, box))}") == "done", spy.said
 
 
 def comes_up(spy: Spy, file: Path, holds: Callable[[np.ndarray], bool]) -> bool:
@@ -246,7 +246,7 @@ def test_a_closed_window_leaves_nothing_behind_and_can_be_opened_again(
     publish("CAMERA", jpeg_image(red_and_blue()))
     open_window(spy, "CAMERA", PICTURE_BOX)
     assert spy.ask("feeds CAMERA") == "1"
-    spy.ask("close CAMERA")
+    assert spy.ask("close CAMERA") == "done"
     assert becomes_true(lambda: spy.ask("feeds CAMERA") == "0", PATIENCE_S)
     open_window(spy, "CAMERA", PICTURE_BOX)
     assert comes_up(spy, tmp_path / "screen.png", shows_red_beside_blue)
