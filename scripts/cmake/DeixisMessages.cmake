@@ -7,6 +7,7 @@
 #   <build>/java/deixis_types.jar                       Java, where a JDK and LCM's jar are present
 # and the rules that install them. A file is named <package>_<struct>.lcm.
 include_guard(GLOBAL)
+include(DeixisJava)
 set(DEIXIS_MESSAGES_SCRIPT_DIR "${CMAKE_CURRENT_LIST_DIR}")
 
 function(deixis_message_library)
@@ -97,9 +98,9 @@ function(deixis_python_messages name files types)
 endfunction()
 
 function(deixis_java_messages name files types)
-  find_package(Java QUIET COMPONENTS Development)
-  if(NOT Java_JAVAC_EXECUTABLE OR NOT Java_JAR_EXECUTABLE OR NOT LCM_JAR)
-    message(STATUS "Java types: left out, for want of a JDK (javac, jar) or LCM's lcm.jar "
+  deixis_has_java(has_java)
+  if(NOT has_java)
+    message(STATUS "Java types and scripts/deixis spy: left out, for want of a JDK (javac, jar) or LCM's lcm.jar "
                    "(on Debian: default-jdk-headless, liblcm-java)")
     return()
   endif()

@@ -39,6 +39,7 @@ COMMANDS: dict[str, Command] = {
     "delay": Command(f"{_PACKAGE}.delay", "measure how old messages are when they arrive"),
     "topics": Command(f"{_PACKAGE}.topics", "list channels, their types, who speaks and listens"),
     "doctor": Command(f"{_PACKAGE}.doctor", "look for what keeps messages from arriving"),
+    "spy": Command(f"{_PACKAGE}.spy", "watch messages, pictures and people in windows (lcm-spy)"),
     "run-offline": Command(f"{_PACKAGE}.run_offline", "log in, services, log out, without a bus"),
     "evaluate": Command(f"{_PACKAGE}.evaluate", "measure results against recordings with truth"),
     "train-gestures": Command("deixis_frontend.training.gestures", "learn gesture models"),

@@ -20,6 +20,7 @@ class Layout:
     types: Path  # generated Python message types
     state: Path  # logs and output are written below this
     clips: Path
+    jars: Path
     own_config: Path | None = None  # of DEIXIS_CONFIG_DIR: goes before `config`
 
     def program(self, name: str) -> Path:
@@ -31,6 +32,15 @@ class Layout:
             return path
         cure = "run scripts/build" if self.repository else "install Deixis again"
         raise UserError(f"program {name} not found in {path.parent}: {cure}")
+
+    def jar(self, name: str) -> Path:
+        """The path of a Java archive that the build makes; raises UserError without it."""
+        path = self.jars / name
+        if path.is_file():
+            return path
+        build = "run scripts/build" if self.repository else "build and install Deixis again"
+        raise UserError(f"{name} not found in {self.jars}: {build}, where a JDK and lcm.jar are"
+                        " (packages default-jdk-headless, liblcm-java)")
 
     def config_file(self, name: str, beside: Path) -> Path:
         """`name` in the folder `beside` when it is there, else in a configuration folder."""
@@ -74,6 +84,7 @@ def _repository(root: Path) -> Layout:
         types=build / "python",
         state=root,
         clips=root / "test" / "data" / "clips",
+        jars=build / "java",
         own_config=_own_config(),
     )
 
@@ -88,6 +99,7 @@ def _installed(prefix: Path, python: Path) -> Layout:
         types=python,
         state=Path(state) / "deixis",
         clips=share / "clips",
+        jars=prefix / "share" / "java",
         own_config=_own_config(),
     )
 
