@@ -35,6 +35,7 @@ COMMANDS: dict[str, Command] = {
     "record": Command(f"{_PACKAGE}.record", "write the messages on the bus to a log file"),
     "replay": Command(f"{_PACKAGE}.replay", "publish the messages of a log file"),
     "run-offline": Command(f"{_PACKAGE}.run_offline", "log in, services, log out, without a bus"),
+    "export": Command(f"{_PACKAGE}.export", "turn a log into an MCAP file, for Foxglove"),
     "evaluate": Command(f"{_PACKAGE}.evaluate", "measure results against recordings with truth"),
     "train-gestures": Command("deixis_frontend.training.gestures", "learn gesture models"),
     "train-hands": Command("deixis_frontend.training.hands", "learn what hands look like"),
@@ -53,9 +54,9 @@ def main(argv: list[str]) -> int:
             print(f"deixis: {line}", file=sys.stderr)
         return 1
     except ModuleNotFoundError as error:
-        if error.name not in ("lcm", "numpy", "yaml"):
+        if error.name is None or not (missing := missing_module(error.name)):
             raise
-        print(f"deixis: {missing_module(error.name)}", file=sys.stderr)
+        print(f"deixis: {missing}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         interrupts.end_at_once()  # A second Ctrl-C, while Python ends, is not told either.
