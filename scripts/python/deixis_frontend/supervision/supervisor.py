@@ -11,6 +11,7 @@ from typing import Any
 
 from deixis_frontend.layout import Layout
 from deixis_frontend.lcm_url import LcmUrl
+from deixis_frontend.supervision.command_line import command_line
 from deixis_frontend.supervision.guard import TOKEN_VARIABLE
 from deixis_frontend.supervision.rotating_log import RotatingLog
 from deixis_frontend.supervision.supervised_service import READY, Launch, State, SupervisedService
@@ -108,20 +109,8 @@ class Supervisor:
     def _launch(self, entry: ServiceEntry) -> Launch:
         environment = {**self._layout.environment(), TOKEN_VARIABLE: self._token,
                        "LCM_DEFAULT_URL": str(self._url)}
-        return Launch(lambda: self._command(entry), environment, self._layout.state)
-
-    def _command(self, entry: ServiceEntry) -> list[str]:
-        command = [str(self._layout.program(entry.program)), "--lcm-url", str(self._url)]
-        if self.system.channel_prefix:
-            command += ["--channel-prefix", self.system.channel_prefix]
-        if entry.instance:
-            command += ["--instance", entry.instance]
-        if entry.config:
-            beside = self.system.path.parent
-            command += ["--config", str(self._layout.config_file(entry.config, beside))]
-        for key, value in entry.settings.items():
-            command += ["--set", f"{key}={value}"]
-        return [*command, *entry.args]
+        return Launch(lambda: command_line(self.system, entry, self._layout, self._url), environment,
+                      self._layout.state)
 
     def _log(self, name: str) -> RotatingLog:
         settings = self.system.log
