@@ -94,7 +94,8 @@ def test_what_procman_would_change_is_refused(bench: Bench) -> None:
 def test_what_procman_cannot_say_is_told(bench: Bench) -> None:
     bench.write({"eyes": {"restart": "on_failure"}})
     result = bench.deixis("procman", "--output", str(bench.folder / "x.pmd"))
-    assert result.returncode == 0 and "eyes: procman knows no 'restart: on_failure'" in result.stderr
+    assert result.returncode == 0
+    assert "eyes: procman knows no 'restart: on_failure'" in result.stderr
 
 
 def test_a_file_that_is_there_stays_without_force(bench: Bench) -> None:

@@ -36,6 +36,7 @@ COMMANDS: dict[str, Command] = {
     "replay": Command(f"{_PACKAGE}.replay", "publish the messages of a log file"),
     "run-offline": Command(f"{_PACKAGE}.run_offline", "log in, services, log out, without a bus"),
     "export": Command(f"{_PACKAGE}.export", "turn a log into an MCAP file, for Foxglove"),
+    "install-units": Command(f"{_PACKAGE}.install_units", "start with the machine, by systemd"),
     "procman": Command(f"{_PACKAGE}.procman", "write the services as a procman sheriff reads them"),
     "evaluate": Command(f"{_PACKAGE}.evaluate", "measure results against recordings with truth"),
     "train-gestures": Command("deixis_frontend.training.gestures", "learn gesture models"),
