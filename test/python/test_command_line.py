@@ -20,6 +20,7 @@ from deixis_frontend.cli import main
     "replay x --channels (", "log -n -5", "log -n many", "evaluate pointing --data x --seeds 0",
     "evaluate pointing --data x --seeds -1", "evaluate live --rate 0",
     "evaluate live --seconds inf",
+    "export x --mcap y --channels (", "procman --output x --wait-ms -1",
     "train-gestures --data x --output y --noise-px -1",
     "train-gestures --data x --output y --noise-px nan",
 ])
@@ -36,6 +37,16 @@ def test_recording_needs_expressions_that_are_some(capsys: pytest.CaptureFixture
         main(["record", "("])
     assert end.value.code == 2
     assert "'(' is no regular expression" in capsys.readouterr().err
+
+
+def test_packages_that_a_command_needs_are_named(tmp_path: Path) -> None:
+    code = ("import sys; sys.modules['mcap'] = None; from deixis_frontend.cli import main;"
+            " sys.exit(main(sys.argv[1:]))")
+    done = subprocess.run([sys.executable, "-c", code, "export", "x", "--mcap", tmp_path / "y"],
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+                          capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode == 1 and "Traceback" not in done.stderr
+    assert "lacks the module 'mcap'" in done.stderr and "foxglove-schemas-protobuf" in done.stderr
 
 
 @pytest.mark.parametrize("arguments", [

@@ -74,6 +74,9 @@ def test_the_other_commands_work_on_it(bench: Bench, notices: socket.socket) -> 
         await_ready(notices)
         started = bench.deixis("start", "b")
         assert started.returncode == 0, started.stderr
+        assert bench.deixis("restart", "a").returncode == 0
+        refused = bench.deixis("restart")
+        assert refused.returncode == 1 and "is in the foreground" in refused.stderr
         assert bench.deixis("stop").returncode == 0
         said, _ = process.communicate(timeout=_SECONDS)
     assert process.returncode == 0, said

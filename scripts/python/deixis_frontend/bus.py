@@ -37,8 +37,9 @@ def import_lcm() -> Any:
 
 def missing_module(name: str) -> str:
     """What to say when this Python lacks a module; empty when the front end does not need it."""
+    top = name.partition(".")[0]
     for modules, packages in _PACKAGES.items():
-        if name.partition(".")[0] in modules:
-            return (f"this Python lacks the module '{name}': run scripts/setup in a checkout, or"
+        if top in modules:
+            return (f"this Python lacks the module '{top}': run scripts/setup in a checkout, or"
                     f" `pip install {packages}` and name that Python in DEIXIS_PYTHON")
     return ""

@@ -11,6 +11,7 @@ from deixis_frontend import lcm_url
 from deixis_frontend.commands.system_option import (
     add_names, add_system, open_system, print_service)
 from deixis_frontend.supervision import daemon
+from deixis_frontend.supervision.control_client import Client
 from deixis_frontend.supervision.foreground import Foreground
 from deixis_frontend.supervision.system_file import System
 
@@ -30,6 +31,11 @@ def run(arguments: argparse.Namespace) -> int:
     system.resolve(arguments.names)  # A wrong name must not start a supervisor.
     if arguments.foreground:
         return _stay(system, arguments)
+    return leave_behind(client, arguments)
+
+
+def leave_behind(client: Client, arguments: argparse.Namespace) -> int:
+    """Starts services below a supervisor that stays in the background; 0 when all got ready."""
     client.ensure_supervisor(lcm_url.choose(arguments.lcm_url),
                              url_is_wanted=bool(arguments.lcm_url))
     answer = client.command("start", arguments.names, print_service)

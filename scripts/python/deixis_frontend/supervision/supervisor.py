@@ -94,6 +94,7 @@ class Supervisor:
             "file": str(self.system.path),
             "lcm_url": str(self._url),
             "supervisor_pid": os.getpid(),
+            "is_in_foreground": self._echo is not None,
             "uptime_s": round(time.monotonic() - self._began, 1),
             "services": [service.facts() for service in self._services.values()],
         }
