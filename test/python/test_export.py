@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import signal
 import subprocess
 import sys
 import zlib
@@ -468,3 +469,16 @@ def test_a_full_disk_is_told_and_keeps_what_there_was(tmp_path: Path,
     assert "the disk is full: make room" in capsys.readouterr().err
     assert set(tmp_path.iterdir()) == {log, output}
     assert output.read_text(encoding="ascii") == "old"
+
+
+def test_an_interrupted_export_leaves_nothing_behind(tmp_path: Path,
+                                                     monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(McapFile, "finish", interrupt)
+    before = signal.getsignal(signal.SIGINT)
+    log = log_of(tmp_path / "in.lcmlog", ("A", status(1)))
+    assert main(["export", str(log), "--mcap", str(tmp_path / "out.mcap")]) == 130
+    signal.signal(signal.SIGINT, before)
+    assert list(tmp_path.iterdir()) == [log]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import signal
 import socket
 import subprocess
@@ -13,6 +14,7 @@ import pytest
 from bench import Bench, becomes_true, is_alive
 
 from deixis_frontend.supervision.echoed_log import EchoedLog
+from deixis_frontend.supervision.foreground import Foreground
 from deixis_frontend.supervision.rotating_log import RotatingLog
 
 _SECONDS = 30.0
@@ -119,6 +121,22 @@ def test_nothing_is_left_when_it_is_killed(bench: Bench, notices: socket.socket)
         process.kill()
         process.wait()
         assert becomes_true(lambda: not is_alive(pid), _SECONDS)
+
+
+def test_an_error_of_its_own_ends_it(capsys: pytest.CaptureFixture[str]) -> None:
+    class Broken:
+        def all_for(self, _: list[str]) -> list[str]:
+            raise RuntimeError("broken")
+
+    async def run(foreground: Foreground) -> None:
+        end = asyncio.Event()
+        foreground.begin(Broken(), end)  # type: ignore[arg-type]
+        await asyncio.wait_for(end.wait(), _SECONDS)
+
+    foreground = Foreground([], print)
+    asyncio.run(run(foreground))
+    assert foreground.exit_code == 1
+    assert "error in the supervisor itself: RuntimeError('broken')" in capsys.readouterr().err
 
 
 class _Closed:

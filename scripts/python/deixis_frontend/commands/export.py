@@ -16,7 +16,7 @@ from deixis_frontend.lcm_tools import require_log
 from deixis_frontend.output_files import UnfinishedFile
 from deixis_frontend.progress_bar import ProgressBar
 
-DEFAULT_BUS = "none: this command needs no bus"
+DEFAULT_BUS = "none, for none is needed"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

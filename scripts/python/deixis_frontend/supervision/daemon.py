@@ -68,7 +68,7 @@ async def _run(system: System, layout: Layout, url: LcmUrl, folder: RunFolder, t
     if while_pid:
         helpers.append(asyncio.create_task(_end_with(while_pid, end)))
     if foreground:
-        helpers.append(asyncio.create_task(foreground.run(supervisor, end)))
+        helpers.append(foreground.begin(supervisor, end))
     await end.wait()
     for helper in helpers[2:]:  # The guard stays till the services have gone.
         helper.cancel()

@@ -25,15 +25,26 @@ class Foreground:
         self._report = report
         self.exit_code = 0
 
-    async def run(self, supervisor: Supervisor, end: asyncio.Event) -> None:
-        """Sets `end` when a service that was asked for is given up."""
+    def begin(self, supervisor: Supervisor, end: asyncio.Event) -> asyncio.Task[None]:
+        """Starts the services; `end` is set when one that was asked for is given up."""
+        def ended(task: asyncio.Task[None]) -> None:
+            if not task.cancelled() and (error := task.exception()):
+                self._give_up(f"error in the supervisor itself: {error!r}", end)
+
+        task = asyncio.create_task(self._run(supervisor, end))
+        task.add_done_callback(ended)
+        return task
+
+    async def _run(self, supervisor: Supervisor, end: asyncio.Event) -> None:
         wanted = supervisor.all_for(self._names)
         await supervisor.start(self._names, self._report)
         if not supervisor.in_state(State.FAILED, wanted):
             notify(f"READY=1\nSTATUS={len(wanted)} services have been started")
         while not (failed := supervisor.in_state(State.FAILED, wanted)):
             await asyncio.sleep(_LOOK_EVERY_S)
-        words = f"given up: {', '.join(failed)}: all is stopped"
+        self._give_up(f"given up: {', '.join(failed)}: all is stopped", end)
+
+    def _give_up(self, words: str, end: asyncio.Event) -> None:
         print(f"deixis: {words}", file=sys.stderr, flush=True)
         notify(f"STATUS={words}")
         self.exit_code = 1
