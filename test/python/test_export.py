@@ -73,9 +73,9 @@ def log_of(path: Path, *pairs: tuple[str, Any]) -> Path:
     return path
 
 
-def make(kind: type, **fields: Any) -> Any:
+def make(message_type: type, **fields: Any) -> Any:
     """A message; sets the length of each list that is given, and utime."""
-    message = kind()
+    message = message_type()
     if "utime" in message.__slots__:
         message.utime = UTIME
     for name, value in fields.items():
@@ -260,7 +260,8 @@ def test_hands_with_a_position_are_in_the_scene_till_they_are_gone(export: Expor
 def test_objects_are_boxes_in_the_picture_and_cubes_in_the_scene(export: Export) -> None:
     cup = make(deixis.object_t, id=7, label="cup", has_box=True, box_px=(10.0, 20.0, 4.0, 5.0),
                has_position=True, position_m=(0.0, 0.5, 1.5), extent_m=(0.1, 0.2, 0.3))
-    ball = make(deixis.object_t, id=8, has_position=True, position_m=(1.0, 0.5, 1.5))
+    ball = make(deixis.object_t, id=8, has_position=True, position_m=(1.0, 0.5, 1.5),
+                visibility=deixis.object_t.OCCLUDED, kind=deixis.object_t.OBJECT)
     opened = export(("OBJECTS", make(deixis.objects_t, camera="front", frame="room",
                                      objects=[cup, ball])))
     drawn = opened.only("/OBJECTS/annotations")
@@ -271,6 +272,7 @@ def test_objects_are_boxes_in_the_picture_and_cubes_in_the_scene(export: Export)
     assert cup_entity.texts[0].text == "cup 7"
     assert xyz(ball_entity.spheres[0].pose.position) == (1.0, 0.5, 1.5)
     assert ball_entity.texts[0].text == "object 8"
+    assert cup_entity.cubes[0].color.a == 1.0 and ball_entity.spheres[0].color.a == 0.5
 
 
 def test_the_area_of_a_hypothesis_is_drawn(export: Export) -> None:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from deixis import hand_t, object_t
+from deixis import hand_t
 from foxglove_schemas_protobuf.CircleAnnotation_pb2 import CircleAnnotation
 from foxglove_schemas_protobuf.Color_pb2 import Color
 from foxglove_schemas_protobuf.ImageAnnotations_pb2 import ImageAnnotations
@@ -43,7 +43,7 @@ def of_objects(message: Any) -> ImageAnnotations:
     drawn = ImageAnnotations(timestamp=stamp(message.utime))
     for thing in message.objects:
         if thing.has_box:
-            colour = BLUE if thing.visibility == object_t.SEEN else GREY
+            colour = BLUE if names.is_there(thing) else GREY
             drawn.points.append(_box(thing.box_px, colour))
             drawn.texts.append(_text(names.thing(thing), thing.box_px, colour))
     return drawn

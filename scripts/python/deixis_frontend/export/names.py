@@ -1,8 +1,10 @@
-"""How hands, objects and hypotheses are called in a picture or a scene."""
+"""How hands, objects and gestures are called and told apart in a picture or a scene."""
 
 from __future__ import annotations
 
 from typing import Any
+
+from deixis import object_t
 
 _SIDES = {1: "left", 2: "right"}  # as in hand_t; the person's own
 _OUTCOMES = {1: "no known object", 2: "several objects"}  # as in gesture_t
@@ -21,6 +23,11 @@ def hand(message: Any) -> str:
 def thing(message: Any) -> str:
     """Label and id of an object_t."""
     return f"{message.label or 'object'} {message.id}"
+
+
+def is_there(message: Any) -> bool:
+    """Whether an object_t is seen in this picture, or a place, which is always there."""
+    return message.visibility == object_t.SEEN or message.kind == object_t.PLACE
 
 
 def hypothesis(message: Any) -> str:

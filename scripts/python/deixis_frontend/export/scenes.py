@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from deixis import body_pose_t, hand_t, limb_pose_t, object_t
+from deixis import body_pose_t, hand_t, limb_pose_t
 from foxglove_schemas_protobuf.Color_pb2 import Color
 from foxglove_schemas_protobuf.CubePrimitive_pb2 import CubePrimitive
 from foxglove_schemas_protobuf.LinePrimitive_pb2 import LinePrimitive
@@ -78,7 +78,7 @@ def _hand(message: Any, hand: Any, frame: str) -> SceneEntity:
 
 
 def _thing(message: Any, thing: Any, frame: str) -> SceneEntity:
-    colour = BLUE if thing.visibility == object_t.SEEN else GREY
+    colour = BLUE if names.is_there(thing) else GREY
     entity = _entity(message, frame, f"object {thing.id}")
     if any(thing.extent_m):
         entity.cubes.append(CubePrimitive(pose=pose(thing.position_m), color=colour,
