@@ -76,11 +76,12 @@ class Bench:
                 str(self.system_file), *arguments]
 
     def begin(self, command: str, *arguments: str,
-              output: IO[str] | int = subprocess.PIPE) -> subprocess.Popen[str]:
+              output: IO[str] | int = subprocess.PIPE,
+              **environment: str) -> subprocess.Popen[str]:
         """Runs a command of the front end beside the test."""
-        return subprocess.Popen(self.command(command, *arguments), env=self._environment,
-                                text=True, stdout=output, stderr=subprocess.STDOUT,
-                                preexec_fn=heed_interrupts)
+        return subprocess.Popen(self.command(command, *arguments),
+                                env={**self._environment, **environment}, text=True,
+                                stdout=output, stderr=subprocess.STDOUT, preexec_fn=heed_interrupts)
 
     def status(self) -> dict[str, Any]:
         """What `status --json` says."""

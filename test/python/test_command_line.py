@@ -21,6 +21,7 @@ from deixis_frontend.cli import main
     "evaluate pointing --data x --seeds -1", "evaluate live --rate 0",
     "evaluate live --seconds inf", "echo --seconds 0", "echo --count 0", "echo --field [",
     "hz --window 0", "delay --window nan", "topics --seconds -1", "doctor --seconds inf",
+    "export x --mcap y --channels (", "procman --output x --wait-ms -1",
     "train-gestures --data x --output y --noise-px -1",
     "train-gestures --data x --output y --noise-px nan",
 ])
@@ -45,6 +46,16 @@ def test_expressions_that_cannot_stand_within_others_are_refused(
     assert main([command, "(?i)camera", "B", "-l", url]) == 1
     [line] = capsys.readouterr().err.splitlines()
     assert "write for example (?i:name)" in line
+
+
+def test_packages_that_a_command_needs_are_named(tmp_path: Path) -> None:
+    code = ("import sys; sys.modules['mcap'] = None; from deixis_frontend.cli import main;"
+            " sys.exit(main(sys.argv[1:]))")
+    done = subprocess.run([sys.executable, "-c", code, "export", "x", "--mcap", tmp_path / "y"],
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+                          capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode == 1 and "Traceback" not in done.stderr
+    assert "lacks the module 'mcap'" in done.stderr and "foxglove-schemas-protobuf" in done.stderr
 
 
 @pytest.mark.parametrize("arguments", [

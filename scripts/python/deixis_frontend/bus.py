@@ -7,6 +7,13 @@ from typing import Any
 from deixis_frontend.errors import UserError
 from deixis_frontend.lcm_url import LcmUrl, require_bus
 
+# Modules that the front end imports -> what pip calls those that they come with.
+_PACKAGES = {
+    ("lcm", "numpy", "yaml"): "lcm numpy PyYAML",
+    ("mcap", "mcap_protobuf", "foxglove_schemas_protobuf", "google"):
+        "mcap mcap-protobuf-support foxglove-schemas-protobuf",
+}
+
 
 def open_bus(url: LcmUrl) -> Any:
     """An `lcm.LCM` on `url` with a receive buffer that pictures fit into."""
@@ -29,6 +36,10 @@ def import_lcm() -> Any:
 
 
 def missing_module(name: str) -> str:
-    """What to say when this Python lacks a module that the front end needs."""
-    return (f"this Python lacks the module '{name}': run scripts/setup in a checkout, or"
-            " `pip install lcm numpy PyYAML` and name that Python in DEIXIS_PYTHON")
+    """What to say when this Python lacks a module; empty when the front end does not need it."""
+    top = name.partition(".")[0]
+    for modules, packages in _PACKAGES.items():
+        if top in modules:
+            return (f"this Python lacks the module '{top}': run scripts/setup in a checkout, or"
+                    f" `pip install {packages}` and name that Python in DEIXIS_PYTHON")
+    return ""

@@ -41,6 +41,9 @@ COMMANDS: dict[str, Command] = {
     "doctor": Command(f"{_PACKAGE}.doctor", "look for what keeps messages from arriving"),
     "spy": Command(f"{_PACKAGE}.spy", "watch messages, pictures and people in windows (lcm-spy)"),
     "run-offline": Command(f"{_PACKAGE}.run_offline", "log in, services, log out, without a bus"),
+    "export": Command(f"{_PACKAGE}.export", "turn a log into an MCAP file, for Foxglove"),
+    "install-units": Command(f"{_PACKAGE}.install_units", "start with the machine, by systemd"),
+    "procman": Command(f"{_PACKAGE}.procman", "write the services as a procman sheriff reads them"),
     "evaluate": Command(f"{_PACKAGE}.evaluate", "measure results against recordings with truth"),
     "train-gestures": Command("deixis_frontend.training.gestures", "learn gesture models"),
     "train-hands": Command("deixis_frontend.training.hands", "learn what hands look like"),
@@ -59,9 +62,9 @@ def main(argv: list[str]) -> int:
             print(f"deixis: {line}", file=sys.stderr)
         return 1
     except ModuleNotFoundError as error:
-        if error.name not in ("lcm", "numpy", "yaml"):
+        if error.name is None or not (missing := missing_module(error.name)):
             raise
-        print(f"deixis: {missing_module(error.name)}", file=sys.stderr)
+        print(f"deixis: {missing}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         interrupts.end_at_once()  # A second Ctrl-C, while Python ends, is not told either.

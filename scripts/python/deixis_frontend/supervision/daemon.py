@@ -1,4 +1,4 @@
-"""The supervising process, which `deixis start` starts and leaves behind."""
+"""The supervising process, which `deixis start` starts and leaves behind, or becomes."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from deixis_frontend.layout import Layout
 from deixis_frontend.lcm_url import LcmUrl, parse
 from deixis_frontend.supervision import guard
 from deixis_frontend.supervision.control_server import ControlServer
+from deixis_frontend.supervision.foreground import Foreground
 from deixis_frontend.supervision.own_log import say
 from deixis_frontend.supervision.run_folder import RunFolder
 from deixis_frontend.supervision.status_listener import StatusListener
@@ -34,22 +35,28 @@ def main(argv: list[str]) -> int:
     parser.add_argument("--while-pid", type=int, help="end when this process has ended")
     arguments = parser.parse_args(argv)
     try:
-        system = load(arguments.system)
-        folder = RunFolder(system.name)
-        token = secrets.token_hex(8)
-        guard.stop_all(*folder.lock(arguments.system, token))
-        asyncio.run(_run(system, layouts.find(), parse(arguments.lcm_url), folder, token,
-                         arguments.while_pid))
-        folder.release()
+        supervise(load(arguments.system), layouts.find(), parse(arguments.lcm_url),
+                  while_pid=arguments.while_pid)
     except UserError as error:
         print(error, file=sys.stderr)
         return 1
     return 0
 
 
-async def _run(system: System, layout: Layout, url: LcmUrl, folder: RunFolder,
-               token: str, while_pid: int | None) -> None:
-    supervisor = Supervisor(system, layout, url, token)
+def supervise(system: System, layout: Layout, url: LcmUrl, *, while_pid: int | None = None,
+              foreground: Foreground | None = None) -> None:
+    """Runs until everything has been stopped; raises UserError when it runs already."""
+    folder = RunFolder(system.name)
+    token = secrets.token_hex(8)
+    guard.stop_all(*folder.lock(system.path.resolve(), token))
+    asyncio.run(_run(system, layout, url, folder, token, while_pid, foreground))
+    folder.release()
+
+
+async def _run(system: System, layout: Layout, url: LcmUrl, folder: RunFolder, token: str,
+               while_pid: int | None, foreground: Foreground | None) -> None:
+    echo = sys.stdout.buffer if foreground else None
+    supervisor = Supervisor(system, layout, url, token, echo)
     end = asyncio.Event()
     loop = asyncio.get_running_loop()
     for number in (signal.SIGTERM, signal.SIGINT):
@@ -61,8 +68,11 @@ async def _run(system: System, layout: Layout, url: LcmUrl, folder: RunFolder,
                asyncio.create_task(_stay_reachable(folder, system, token, server, end))]
     if while_pid:
         helpers.append(asyncio.create_task(_end_with(while_pid, end)))
+    if foreground:
+        helpers.append(foreground.begin(supervisor, end))
     await end.wait()
-    helpers[2].cancel()
+    for helper in helpers[2:]:  # The guard stays till the services have gone.
+        helper.cancel()
     folder.hide()
     await supervisor.stop([], lambda _: None)
     await server.close()

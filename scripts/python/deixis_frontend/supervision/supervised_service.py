@@ -14,6 +14,7 @@ from typing import Any
 
 from deixis_frontend.errors import UserError
 from deixis_frontend.supervision import process_facts, status_listener
+from deixis_frontend.supervision.echoed_log import EchoedLog
 from deixis_frontend.supervision.restart_policy import (
     WRONG_USAGE, Ending, RestartPolicy, Verdict)
 from deixis_frontend.supervision.rotating_log import RotatingLog
@@ -54,7 +55,8 @@ class Launch:
 class SupervisedService:
     """Runs one entry of the system file and keeps it alive by its restart policy."""
 
-    def __init__(self, entry: ServiceEntry, launch: Launch, log: RotatingLog) -> None:
+    def __init__(self, entry: ServiceEntry, launch: Launch,
+                 log: RotatingLog | EchoedLog) -> None:
         self.entry = entry
         self.state = State.STOPPED
         self.last_error = ""

@@ -7,10 +7,12 @@ import os
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from deixis_frontend.layout import Layout
 from deixis_frontend.lcm_url import LcmUrl, why_bus_fails
+from deixis_frontend.supervision.command_line import command_line
+from deixis_frontend.supervision.echoed_log import EchoedLog
 from deixis_frontend.supervision.guard import TOKEN_VARIABLE
 from deixis_frontend.supervision.own_log import say
 from deixis_frontend.supervision.receive_drops import kernel_drops
@@ -26,11 +28,14 @@ _GOOD_ENDS = (*READY, State.FINISHED)
 class Supervisor:
     """Owns the services. All methods run on one event loop."""
 
-    def __init__(self, system: System, layout: Layout, url: LcmUrl, token: str) -> None:
+    def __init__(self, system: System, layout: Layout, url: LcmUrl, token: str,
+                 echo: BinaryIO | None = None) -> None:
+        """`echo` gets what the services write, too, with their names before it."""
         self.system = system
         self._layout = layout
         self._url = url
         self._token = token
+        self._echo = echo
         self._services = {
             name: SupervisedService(entry, self._launch(entry), self._log(name))
             for name, entry in system.services.items()
@@ -45,8 +50,7 @@ class Supervisor:
 
     async def start(self, names: list[str], report: Report) -> bool:
         """Starts groups and services (none named: those of `start`); true when all got ready."""
-        named = names or list(self.system.start) or list(self.system.services)
-        wanted = self.system.with_needs(self.system.resolve(named))
+        wanted = self.all_for(names)
         for name in wanted:  # Those that others wait for come first.
             await self._services[name].start(*self._predecessors(name, wanted))
         await asyncio.gather(*(self._report_settled(name, report) for name in wanted))
@@ -63,6 +67,15 @@ class Supervisor:
         wanted = self.system.resolve(names) if names else self.wanted()
         await self.stop(wanted, lambda _: None)
         return await self.start(wanted, report)
+
+    def all_for(self, names: list[str]) -> list[str]:
+        """The services that starting `names` starts, in order."""
+        named = names or list(self.system.start) or list(self.system.services)
+        return self.system.with_needs(self.system.resolve(named))
+
+    def in_state(self, state: State, names: list[str]) -> list[str]:
+        """Those of `names` that are in a state."""
+        return [name for name in names if self._services[name].state is state]
 
     def wanted(self) -> list[str]:
         """The services that somebody started and nobody stopped."""
@@ -92,6 +105,7 @@ class Supervisor:
             "file": str(self.system.path),
             "lcm_url": str(self._url),
             "supervisor_pid": os.getpid(),
+            "is_in_foreground": self._echo is not None,
             "uptime_s": round(time.monotonic() - self._began, 1),
             "trouble": self._trouble,
             "services": [service.facts() for service in self._services.values()],
@@ -120,25 +134,14 @@ class Supervisor:
     def _launch(self, entry: ServiceEntry) -> Launch:
         environment = {**self._layout.environment(), TOKEN_VARIABLE: self._token,
                        "LCM_DEFAULT_URL": str(self._url)}
-        return Launch(lambda: self._command(entry), environment, self._layout.state)
+        return Launch(lambda: command_line(self.system, entry, self._layout, self._url),
+                      environment, self._layout.state)
 
-    def _command(self, entry: ServiceEntry) -> list[str]:
-        command = [str(self._layout.program(entry.program)), "--lcm-url", str(self._url)]
-        if self.system.channel_prefix:
-            command += ["--channel-prefix", self.system.channel_prefix]
-        if entry.instance:
-            command += ["--instance", entry.instance]
-        if entry.config:
-            beside = self.system.path.parent
-            command += ["--config", str(self._layout.config_file(entry.config, beside))]
-        for key, value in entry.settings.items():
-            command += ["--set", f"{key}={value}"]
-        return [*command, *entry.args]
-
-    def _log(self, name: str) -> RotatingLog:
+    def _log(self, name: str) -> RotatingLog | EchoedLog:
         settings = self.system.log
-        return RotatingLog(self.log_folder() / f"{name}.log", int(settings.size_mb * 1e6),
-                           settings.count)
+        log = RotatingLog(self.log_folder() / f"{name}.log", int(settings.size_mb * 1e6),
+                          settings.count)
+        return EchoedLog(log, name, self._echo) if self._echo else log
 
 
 def log_folder(system: System, layout: Layout) -> Path:

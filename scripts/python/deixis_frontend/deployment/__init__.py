@@ -1,0 +1,1 @@
+"""The system file turned into what other process managers read."""
