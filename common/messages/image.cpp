@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "common/messages/jpeg_check.h"
+#include "common/images/jpeg_check.h"
 #include "common/messages/wire.h"
 
 namespace deixis::messages {
@@ -15,6 +15,7 @@ using bot_core::image_t;
 using bot_core::images_t;
 using images::EncodedImage;
 using images::Image;
+using images::JpegFault;
 
 constexpr const char* kCameraKey = "deixis.camera";
 constexpr const char* kSequenceKey = "deixis.sequence";
@@ -47,12 +48,30 @@ void RequireSize(const image_t& message) {
   if (pixels > kMostPixels) throw Rejected("too_large");
 }
 
-void RequireHonest(const image_t& message) {
-  RequireHonestJpeg({message.data.data(), message.data.size()}, message.width, message.height);
+const char* Reason(JpegFault fault) {
+  switch (fault) {
+    case JpegFault::kOtherSize:
+      return "jpeg_size";
+    case JpegFault::kNotBaseline:
+      return "jpeg_not_baseline";
+    case JpegFault::kTooManyScans:
+      return "jpeg_too_many_scans";
+    case JpegFault::kTruncated:
+      return "jpeg_truncated";
+    default:
+      return "bad_jpeg";
+  }
+}
+
+// A picture that lies is refused before memory and time are taken for it.
+void RequireHonestJpeg(const image_t& message) {
+  const JpegFault fault =
+      images::CheckJpeg(message.data.data(), message.data.size(), message.width, message.height);
+  if (fault != JpegFault::kNone) throw Rejected(Reason(fault));
 }
 
 cv::Mat DecodeJpeg(const image_t& message) {
-  RequireHonest(message);
+  RequireHonestJpeg(message);
   const cv::Mat bgr = cv::imdecode(message.data, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   if (bgr.empty()) throw Rejected("bad_jpeg");
   return bgr;
@@ -123,7 +142,7 @@ Decoded<EncodedImage> Codec<EncodedImage>::Decode(Bytes bytes) {
   auto message = DecodeWire<image_t>(bytes);
   RequireSize(message);
   if (message.pixelformat != image_t::PIXEL_FORMAT_MJPEG) throw Rejected("bad_pixel_format");
-  RequireHonest(message);
+  RequireHonestJpeg(message);
   const std::int64_t sequence = Sequence(message);
   return {{ToTimestamp(message.utime), Metadata(message, kCameraKey), message.width, message.height,
            std::move(message.data)},
