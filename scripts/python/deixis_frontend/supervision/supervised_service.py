@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from deixis_frontend.errors import UserError
+from deixis_frontend.received import printable
 from deixis_frontend.supervision import process_facts, status_listener
 from deixis_frontend.supervision.restart_policy import (
     WRONG_USAGE, Ending, RestartPolicy, Verdict)
@@ -109,7 +110,7 @@ class SupervisedService:
             self._heard_at = time.monotonic()
             self._follow(message.state)
         else:
-            self.stranger = f"pid {message.pid} on {message.host}"
+            self.stranger = f"pid {message.pid} on {printable(message.host)}"
 
     def sample(self) -> None:
         """Measures the CPU use; call it about once a second."""
