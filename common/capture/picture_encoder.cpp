@@ -6,6 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "common/images/jpeg_check.h"
+
 namespace deixis::capture {
 namespace {
 
@@ -22,6 +24,12 @@ bool HasExif(const std::vector<std::uint8_t>& jpeg) {
   static constexpr std::array<std::uint8_t, 5> kExif{'E', 'x', 'i', 'f', 0};
   const auto end = jpeg.begin() + static_cast<std::ptrdiff_t>(std::min(jpeg.size(), kHeaderBytes));
   return std::search(jpeg.begin(), end, kExif.begin(), kExif.end()) != end;
+}
+
+// Receivers refuse progressive files, and those that are damaged.
+bool IsReceived(const std::vector<std::uint8_t>& jpeg, cv::Size size) {
+  return images::CheckJpeg(jpeg.data(), jpeg.size(), size.width, size.height) ==
+         images::JpegFault::kNone;
 }
 
 cv::Mat Resized(const cv::Mat& bgr, cv::Size size) {
@@ -47,7 +55,8 @@ images::EncodedImage Encode(const Picture& picture, Timestamp time, const std::s
   image.camera = camera;
   image.width_px = size.width;
   image.height_px = size.height;
-  const bool suits = size == picture.bgr.size() && !HasExif(picture.jpeg);
+  const bool suits =
+      size == picture.bgr.size() && !HasExif(picture.jpeg) && IsReceived(picture.jpeg, size);
   if (!picture.jpeg.empty() && suits) {
     image.jpeg = picture.jpeg;
   } else {

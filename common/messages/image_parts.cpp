@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "common/messages/jpeg_check.h"
+#include "common/images/jpeg_check.h"
 #include "common/messages/wire.h"
 
 namespace deixis::messages {
@@ -12,6 +12,7 @@ namespace {
 
 using bot_core::image_t;
 using bot_core::images_t;
+using images::JpegFault;
 
 constexpr const char* kCameraKey = "deixis.camera";
 constexpr const char* kSequenceKey = "deixis.sequence";
@@ -30,6 +31,27 @@ bot_core::image_metadata_t Entry(const std::string& key, const std::string& valu
   entry.value.assign(value.begin(), value.end());
   entry.n = static_cast<std::int32_t>(entry.value.size());
   return entry;
+}
+
+const char* Reason(JpegFault fault) {
+  switch (fault) {
+    case JpegFault::kOtherSize:
+      return "jpeg_size";
+    case JpegFault::kNotBaseline:
+      return "jpeg_not_baseline";
+    case JpegFault::kTooManyScans:
+      return "jpeg_too_many_scans";
+    case JpegFault::kTruncated:
+      return "jpeg_truncated";
+    default:
+      return "bad_jpeg";
+  }
+}
+
+// A picture that lies is refused before memory and time are taken for it.
+void RequireHonestJpeg(const std::vector<std::uint8_t>& jpeg, cv::Size size) {
+  const JpegFault fault = images::CheckJpeg(jpeg.data(), jpeg.size(), size.width, size.height);
+  if (fault != JpegFault::kNone) throw Rejected(Reason(fault));
 }
 
 cv::Size SizeOf(const image_t& message) { return {message.width, message.height}; }
@@ -64,7 +86,7 @@ void RequirePictureSize(std::int64_t width_px, std::int64_t height_px) {
 }
 
 cv::Mat DecodeJpeg(const std::vector<std::uint8_t>& jpeg, cv::Size size) {
-  RequireHonestJpeg({jpeg.data(), jpeg.size()}, size.width, size.height);
+  RequireHonestJpeg(jpeg, size);
   const cv::Mat bgr = cv::imdecode(jpeg, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   if (bgr.empty()) throw Rejected("bad_jpeg");
   return bgr;
@@ -103,7 +125,7 @@ image_t FromImage(const images::Image& image, std::int64_t sequence) {
 images::EncodedImage ToEncodedImage(image_t message) {
   RequirePictureSize(message.width, message.height);
   if (message.pixelformat != image_t::PIXEL_FORMAT_MJPEG) throw Rejected("bad_pixel_format");
-  RequireHonestJpeg({message.data.data(), message.data.size()}, message.width, message.height);
+  RequireHonestJpeg(message.data, SizeOf(message));
   return {ToTimestamp(message.utime), Metadata(message, kCameraKey), message.width, message.height,
           std::move(message.data)};
 }

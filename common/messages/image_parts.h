@@ -16,7 +16,7 @@ namespace deixis::messages {
 /// Throws Rejected("bad_image_size" or "too_large") unless it is a size that a picture may have.
 void RequirePictureSize(std::int64_t width_px, std::int64_t height_px);
 
-/// CV_8UC3, blue green red; what jpeg_check.h refuses is not decoded.
+/// CV_8UC3, blue green red; what CheckJpeg refuses is not decoded.
 cv::Mat DecodeJpeg(const std::vector<std::uint8_t>& jpeg, cv::Size size);
 
 /// Pixels as they lie in a message, `type` being OpenCV's, `stride` bytes from row to row (0 = no

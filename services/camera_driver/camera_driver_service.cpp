@@ -55,7 +55,7 @@ void CameraDriverServiceConfig::Validate() const {
   faults.ThrowIfAny();
 }
 
-PlayingClock::PlayingClock(Clocks clocks)
+PlayingClock::PlayingClock(capture::Clocks clocks)
     : clocks_(std::move(clocks)),
       wall_began_(clocks_.wall()),
       monotonic_began_(clocks_.monotonic()) {}

@@ -1,11 +1,11 @@
 #pragma once
 #include <string>
 
+#include "common/capture/clocks.h"
 #include "common/program/service_loop.h"
 #include "common/transport/bus.h"
 #include "common/transport/status_reporter.h"
 #include "services/camera_driver/core/camera_driver.h"
-#include "services/camera_driver/core/clocks.h"
 
 namespace deixis::camera_driver {
 
@@ -27,11 +27,11 @@ struct CameraDriverServiceConfig {
 /// played goes on evenly when somebody sets the clock.
 class PlayingClock {
  public:
-  explicit PlayingClock(Clocks clocks);
+  explicit PlayingClock(capture::Clocks clocks);
   Timestamp Now() const;
 
  private:
-  Clocks clocks_;
+  capture::Clocks clocks_;
   Timestamp wall_began_;
   Timestamp monotonic_began_;
 };

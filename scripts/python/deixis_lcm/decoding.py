@@ -60,6 +60,9 @@ def decode_as(message_type, data):
         raise _fault(message_type, data, "truncated", f"does not decode: {error}") from None
     if stream.tell() != len(data):
         raise _fault(message_type, data, "trailing_bytes", f"ends after {stream.tell()} of them")
+    # The generated code takes texts that end too early, and booleans that are neither 0 nor 1.
+    if message.encode() != bytes(data):
+        raise _fault(message_type, data, "bad_string", "has a text or a boolean that is no honest one")
     return message
 
 

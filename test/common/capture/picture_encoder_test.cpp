@@ -4,6 +4,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/images/jpeg_check.h"
 #include "test/common/capture/scripted_source.h"
 
 namespace deixis::capture {
@@ -29,6 +30,16 @@ TEST(PictureEncoder, WritesAJpegOfThePictureWithItsTimeAndCamera) {
 TEST(PictureEncoder, HandsAJpegFileOnAsItIs) {
   const Picture picture = JpegPicture();
   EXPECT_EQ(Encode(picture, {0}, "CAMERA", {}).jpeg, picture.jpeg);
+}
+
+TEST(PictureEncoder, EncodesAnewWhatReceiversRefuse) {
+  Picture picture = PictureAt(0);
+  cv::imencode(".jpg", picture.bgr, picture.jpeg, {cv::IMWRITE_JPEG_PROGRESSIVE, 1});
+  for (const auto& refused : {picture.jpeg, std::vector<std::uint8_t>{0xFF, 0xD8}}) {
+    picture.jpeg = refused;
+    const auto jpeg = Encode(picture, {0}, "CAMERA", {}).jpeg;
+    EXPECT_EQ(images::CheckJpeg(jpeg.data(), jpeg.size(), 64, 48), images::JpegFault::kNone);
+  }
 }
 
 TEST(PictureEncoder, MakesWidePicturesSmaller) {

@@ -134,6 +134,28 @@ TEST(HostileHands, PlacesFarBeyondAnyPictureAreRejected) {
   }
 }
 
+TEST(HostileHands, PlacesFarBeyondAnyRoomAreRejected) {
+  auto message = GoodHands();
+  message.hands[0].has_position = 1;
+  EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "accepted");
+  message.hands[0].position_m[2] = 1e200;
+  EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "out_of_range");
+}
+
+TEST(HostileHands, NegativeVariancesAreRejected) {
+  auto message = GoodHands();
+  message.hands[0].covariance[2] = -1.0;
+  EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "out_of_range");
+}
+
+TEST(HostileHands, CameraNamesOfAbsurdLengthAreRejected) {
+  auto message = GoodHands();
+  message.camera.assign(1024, 'c');
+  EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "accepted");
+  message.camera.push_back('c');
+  EXPECT_EQ(ReasonFor<scene::Hands>(Encoded(message)), "text_too_long");
+}
+
 TEST(HostileHands, TimesAndNumbersThatCannotBeAreRejected) {
   for (const std::int64_t absurd : {std::int64_t{-1}, std::numeric_limits<std::int64_t>::min(),
                                     std::numeric_limits<std::int64_t>::max()}) {
@@ -181,6 +203,12 @@ TEST(HostileObjects, ScoresThatAreNoProbabilityAreRejected) {
   EXPECT_EQ(ReasonFor<scene::Objects>(Encoded(message)), "out_of_range");
 }
 
+TEST(HostileObjects, LabelsOfAbsurdLengthAreRejected) {
+  auto message = GoodFace();
+  message.objects[0].label.assign(1025, 'x');
+  EXPECT_EQ(ReasonFor<scene::Objects>(Encoded(message)), "text_too_long");
+}
+
 TEST(HostileObjects, TimesOfLastSightThatCannotBeAreRejected) {
   auto message = GoodFace();
   message.objects[0].last_seen_utime = -5;
@@ -223,6 +251,22 @@ TEST(HostileImage, GoodOnesAreAccepted) {
   EXPECT_EQ(ReasonFor<images::Image>(Encoded(GoodJpeg())), "accepted");
   EXPECT_EQ(ReasonFor<images::Image>(Encoded(GoodGrey())), "accepted");
   EXPECT_EQ(ReasonFor<images::EncodedImage>(Encoded(GoodJpeg())), "accepted");
+}
+
+// Results repeat the name of the camera, so a bad one would spoil every message of ours.
+TEST(HostileImage, CameraNamesThatAreNoTextAreRejected) {
+  for (const auto& [name, reason] : std::vector<std::pair<std::vector<std::uint8_t>, std::string>>{
+           {{'C', 0, 'D'}, "bad_string"},
+           {{0xFF}, "bad_string"},
+           {std::vector<std::uint8_t>(1025, 'C'), "text_too_long"}}) {
+    auto message = GoodGrey();
+    message.metadata = {{}};
+    message.metadata[0].key = "deixis.camera";
+    message.metadata[0].value = name;
+    message.metadata[0].n = static_cast<std::int32_t>(name.size());
+    message.nmetadata = 1;
+    EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), reason);
+  }
 }
 
 TEST(HostileImage, JpegOfAnotherSizeIsRejected) {
@@ -308,6 +352,32 @@ TEST(HostileCalibration, FocalLengthsThatNoCameraHasAreRejected) {
                   Codec<geometry::CameraCalibration>::Encode(calibration, 0)),
               "out_of_range");
   }
+}
+
+std::string ReasonForLens(const geometry::CameraCalibration& calibration) {
+  return ReasonFor<geometry::CameraCalibration>(
+      Codec<geometry::CameraCalibration>::Encode(calibration, 0));
+}
+
+TEST(HostileCalibration, CoefficientsThatDoNotFitTheirModelAreRejected) {
+  geometry::CameraCalibration calibration = geometry::GuessCalibration(640, 480, 1.0);
+  calibration.distortion_model = geometry::DistortionModel::kPlumbBob;
+  calibration.distortion.assign(5, 0.1);
+  EXPECT_EQ(ReasonForLens(calibration), "accepted");
+  calibration.distortion[4] = 1e300;
+  EXPECT_EQ(ReasonForLens(calibration), "out_of_range");
+  calibration.distortion.assign(3, 0.1);
+  EXPECT_EQ(ReasonForLens(calibration), "out_of_range");
+  calibration.distortion.assign(15, 0.1);
+  EXPECT_EQ(ReasonForLens(calibration), "too_many");
+}
+
+TEST(HostileCalibration, RectificationsThatAreNoRotationAreRejected) {
+  geometry::CameraCalibration calibration = geometry::GuessCalibration(640, 480, 1.0);
+  calibration.rectification *= -1.0;
+  EXPECT_EQ(ReasonForLens(calibration), "out_of_range");
+  calibration.rectification.setZero();
+  EXPECT_EQ(ReasonForLens(calibration), "out_of_range");
 }
 
 TEST(HostileCalibration, SizesThatNoCameraHasAreRejected) {

@@ -8,8 +8,11 @@ import struct
 from typing import Any
 
 from deixis_frontend.demo.clip import Clip, Label
+from deixis_frontend.printable import printable
+from deixis_frontend.received import Decoder
 
 _LATE_S = 0.5  # a gesture may be named until so long after its end
+_UTIME_END = 16  # bytes of a message up to there
 _WARM_UP = 90  # pictures whose distances in time give the period
 _SIDES = ("", ", left hand", ", right hand")
 
@@ -21,7 +24,7 @@ class Commentary:
         """With `seconds`, what lies beyond so much of the clip is passed over."""
         self._clip = clip
         self._limit_s = seconds or math.inf
-        self._decode = gesture_type.decode
+        self._decode = Decoder(gesture_type, "GESTURES")
         self._picture_times: list[int] = []
         self._last_picture = 0
         self._events: dict[int, Any] = {}
@@ -39,6 +42,8 @@ class Commentary:
 
     def see_picture(self, data: bytes) -> None:
         """Notes the time of a CAMERA message: the field after the fingerprint."""
+        if len(data) < _UTIME_END:
+            return
         (utime,) = struct.unpack_from(">q", data, 8)
         if self._clip_time(utime) > self._limit_s:
             self.is_over = True
@@ -50,10 +55,12 @@ class Commentary:
     def hear_gesture(self, data: bytes) -> None:
         """Prints a GESTURES message, unless it only tells the end of one that was printed."""
         event = self._decode(data)
+        if event is None:
+            return
         is_news = event.event_id not in self._events
         if is_news and self._clip_time(event.utime) <= self._limit_s:
             self._events[event.event_id] = event
-            print(f"{self._clip_time(event.utime):7.1f} s  {describe(event)}", flush=True)
+            print(f"{self._clip_time(event.utime):7.1f} s  {printable(describe(event))}", flush=True)
 
     def verdict(self) -> str:
         """How many of the gestures that were played were named right."""

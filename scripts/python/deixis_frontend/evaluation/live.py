@@ -20,6 +20,7 @@ from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import report_options
 from deixis_frontend.number_options import above_zero
+from deixis_frontend.received import Decoder
 from deixis_frontend.supervision.process_facts import cpu_seconds, resident_bytes
 from deixis_frontend.supervision.status_listener import CHANNEL, as_facts
 
@@ -71,7 +72,7 @@ class _Chain:
         self._where = where
         self._folder = folder
         self._url = url
-        self._decode = service_status_t.decode
+        self._decode = Decoder(service_status_t, CHANNEL)
         self._bus = open_bus(url)
         self._bus.subscribe(CHANNEL, self._on_status)
         self._processes: dict[str, subprocess.Popen[bytes]] = {}
@@ -151,7 +152,8 @@ class _Chain:
 
     def _on_status(self, _channel: str, data: bytes) -> None:
         message = self._decode(data)
-        self._facts[message.service] = as_facts(message)
+        if message is not None:
+            self._facts[message.service] = as_facts(message)
 
 
 def _messages(facts: dict[str, Any], channel: str, direction: str) -> int:

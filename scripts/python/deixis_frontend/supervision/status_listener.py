@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-import functools
+import math
 import re
 from collections.abc import Callable
 from typing import Any
@@ -11,6 +11,8 @@ from typing import Any
 from deixis_frontend.bus import open_bus
 from deixis_frontend.layout import Layout
 from deixis_frontend.lcm_url import LcmUrl
+from deixis_frontend.printable import printable
+from deixis_frontend.received import Decoder, finite
 from deixis_frontend.supervision.own_log import say
 
 CHANNEL = "SERVICE_STATUS"
@@ -25,13 +27,11 @@ class StatusListener:
                  on_status: Callable[[Any], None]) -> None:
         layout.use_types()
         from deixis import service_status_t
-        from deixis_lcm.decoding import decode_as
 
-        self._decode = functools.partial(decode_as, service_status_t)
+        self._decode = Decoder(service_status_t, CHANNEL, say)
         self._on_status = on_status
         self._bus = open_bus(url)
         self._bus.subscribe(re.escape(prefix + CHANNEL), self._handle)
-        self.refused = 0
 
     def attach(self, loop: asyncio.AbstractEventLoop) -> None:
         """Handles messages whenever the bus has some."""
@@ -44,21 +44,16 @@ class StatusListener:
                 return
 
     def _handle(self, _channel: str, data: bytes) -> None:
-        try:
-            message = self._decode(data)
-        except Exception as error:  # Anything may be on the bus: count it, say it once, go on.
-            self.refused += 1
-            if self.refused == 1:
-                say(f"a message on {CHANNEL} does not decode: {error}")
-            return
-        self._on_status(message)
+        message = self._decode(data)
+        if message is not None:
+            self._on_status(message)
 
 
 def as_facts(message: Any) -> dict[str, Any]:
     """A service_status_t as plain values for JSON; -1 becomes None where it means unknown."""
     return {
-        "version": message.version,
-        "text": message.text,
+        "version": printable(message.version),
+        "text": printable(message.text),
         "channels": [_channel(channel) for channel in message.channels],
         "processing_ms": _percentiles(message.processing_ms_p50, message.processing_ms_p99),
         "age_ms": _percentiles(message.age_ms_p50, message.age_ms_p99),
@@ -68,15 +63,16 @@ def as_facts(message: Any) -> dict[str, Any]:
 
 def _channel(channel: Any) -> dict[str, Any]:
     return {
-        "name": channel.name,
+        "name": printable(channel.name),
         "direction": "out" if channel.direction == channel.OUT else "in",
         "messages": channel.messages,
-        "rate_hz": channel.rate_hz,
+        "rate_hz": finite(channel.rate_hz),
         "gaps": channel.gaps,
         "skipped": channel.skipped,
-        "drops": {drop.reason: drop.count for drop in channel.drops},
+        "drops": {printable(drop.reason): drop.count for drop in channel.drops},
     }
 
 
 def _percentiles(p50: float, p99: float) -> dict[str, float | None]:
-    return {"p50": p50 if p50 >= 0 else None, "p99": p99 if p99 >= 0 else None}
+    return {"p50": p50 if 0 <= p50 < math.inf else None,
+            "p99": p99 if 0 <= p99 < math.inf else None}

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from deixis_frontend.errors import UserError
+from deixis_frontend.printable import printable
 from deixis_frontend.supervision import process_facts, status_listener
 from deixis_frontend.supervision.echoed_log import EchoedLog
 from deixis_frontend.supervision.restart_policy import (
@@ -112,7 +113,7 @@ class SupervisedService:
             self._heard_at = time.monotonic()
             self._follow(message.state)
         else:
-            self.stranger = f"pid {message.pid} on {message.host}"
+            self.stranger = f"pid {message.pid} on {printable(message.host)}"
 
     def silent_s(self) -> float | None:
         """How long it has not spoken; None when it has not to, since it is not ready."""

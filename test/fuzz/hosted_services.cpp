@@ -1,0 +1,98 @@
+#include "test/fuzz/hosted_services.h"
+
+#include <cstdlib>
+#include <set>
+
+#include "common/config/config.h"
+#include "services/gesture_recogniser/gesture_recogniser_service.h"
+#include "services/hand_tracker/hand_tracker_service.h"
+#include "services/object_detector/object_detector_service.h"
+#include "services/viewer/viewer_service.h"
+#include "test/fuzz/good_messages.h"
+#include "test/support/memory_bus.h"
+
+namespace deixis::fuzz {
+
+using messages::ServiceStatus;
+
+namespace {
+// A picture and a hand ask for all answers.
+const std::set<std::string> kAsked{"picture_jpeg", "hands"};
+}  // namespace
+
+class HostedServices::Host {
+ public:
+  virtual ~Host() = default;
+};
+
+template <typename Service, typename Config>
+void HostedServices::Add(const std::string& file, const std::vector<std::string>& overrides) {
+  struct Holder final : Host {
+    Holder(const Config& config, transport::Bus& bus) : service(config, bus, bus) {}
+    Service service;
+  };
+  const auto config = config::Load<Config>(config::FindConfig(file), overrides);
+  hosts_.push_back(std::make_unique<Holder>(config, bus_));
+}
+
+HostedServices::HostedServices() : bus_(test::Memory()) {
+  setenv("DEIXIS_CONFIG_DIR", DEIXIS_SOURCE_DIR "/config", 1);
+  Add<object_detector::ObjectDetectorService, object_detector::ObjectDetectorServiceConfig>(
+      "object_detector.yaml");
+  Add<hand_tracker::HandTrackerService, hand_tracker::HandTrackerServiceConfig>(
+      "hand_tracker.yaml");
+  Add<gesture_recogniser::GestureRecogniserService,
+      gesture_recogniser::GestureRecogniserServiceConfig>("gesture_recogniser.yaml");
+  Add<viewer::ViewerService, viewer::ViewerServiceConfig>(
+      "viewer.yaml", {"save_folder=" + folder_.path().string(), "latest_period_s=0.1"});
+
+  std::set<std::string> heard;
+  for (const auto& channel : bus_.statistics()) heard.insert(channel.channel);
+  channels_.assign(heard.begin(), heard.end());
+  bus_.Subscribe<ServiceStatus>(transport::kStatusChannel, transport::Delivery::kEvery,
+                                [this](const ServiceStatus&) { ++statuses_; });
+}
+
+HostedServices::~HostedServices() = default;
+
+void HostedServices::Send(const std::string& channel, messages::Bytes bytes) {
+  bus_.PublishRaw(channel, bytes, {0});
+  HandleAll();
+}
+
+void HostedServices::HandleAll() { test::HandleAll(bus_); }
+
+std::map<std::string, std::int64_t> HostedServices::Published() const {
+  std::map<std::string, std::int64_t> published;
+  for (const auto& channel : bus_.statistics()) {
+    if (channel.direction == messages::Direction::kOut) {
+      published[channel.channel] += channel.messages;
+    }
+  }
+  return published;
+}
+
+std::string HostedServices::Complaint() {
+  auto before = Published();
+  time_us_ += 33'333;
+  for (const GoodMessage& message : GoodMessages(time_us_)) {
+    if (kAsked.count(message.name) == 0) continue;
+    Send(message.channel, {message.bytes.data(), message.bytes.size()});
+  }
+  auto after = Published();
+  for (const char* answer : {"OBJECTS", "HAND_TRACKS", "GESTURE_STATE"}) {
+    if (after[answer] == before[answer]) return std::string("nothing is published on ") + answer;
+  }
+  for (const auto& channel : bus_.statistics()) {
+    for (const char* reason : {"handler_failed", "malformed"}) {
+      if (channel.drops.count(reason) != 0) return channel.channel + ": " + reason;
+    }
+  }
+  const int statuses = statuses_;
+  transport::StatusReporter({"fuzz", ""}, bus_, bus_)
+      .Report(messages::ServiceState::kRunning, "under fire");
+  HandleAll();
+  return statuses_ == statuses + 1 ? "" : "the status does not go out";
+}
+
+}  // namespace deixis::fuzz
