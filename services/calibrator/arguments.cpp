@@ -18,7 +18,7 @@ struct Texts {
   double still_px = -1.0;
   double change_percent = -1.0;
   bool may_replace = false;
-  bool is_joint = false;
+  bool has_fixed_lenses = false;
 };
 
 cv::Size ParseSize(const std::string& text, const std::string& option) {
@@ -44,10 +44,13 @@ void AddBoard(CLI::App& app, Arguments& arguments, Texts& texts) {
 
 void AddStreams(CLI::App& app, Arguments& arguments, Texts& texts) {
   FeedArguments& feed = arguments.feed;
-  app.add_option("--source", feed.source,
-                 "device:0, url:..., video:FILE or folder:DIR, as config/camera_driver.yaml has it");
-  app.add_option("--channel", feed.channel, "Channel of the bus (camera: CAMERA, stereo: STEREO_PAIR)");
-  app.add_option("-l,--lcm-url", feed.lcm_url, "LCM URL (default: $LCM_DEFAULT_URL, else LCM's own); file://LOG reads a log");
+  app.add_option(
+      "--source", feed.source,
+      "device:0, url:..., video:FILE or folder:DIR, as config/camera_driver.yaml has it");
+  app.add_option("--channel", feed.channel,
+                 "Channel of the bus (camera: CAMERA, stereo: STEREO_PAIR)");
+  app.add_option("-l,--lcm-url", feed.lcm_url,
+                 "LCM URL (default: $LCM_DEFAULT_URL, else LCM's own); file://LOG reads a log");
   app.add_option("--size", texts.size, "Picture size asked of a device: 640x480");
   app.add_option("--rate", feed.device_rate_hz, "Rate asked of a device, Hz")
       ->check(CLI::NonNegativeNumber);
@@ -57,8 +60,9 @@ void AddStreams(CLI::App& app, Arguments& arguments, Texts& texts) {
       ->capture_default_str();
   app.add_option("--seconds", arguments.seconds, "Streams: stop after so many seconds")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--most-motion-px", texts.still_px,
-                 "Streams: corners may move so far from picture to picture (default: 1/400 of the width)")
+  app.add_option(
+         "--most-motion-px", texts.still_px,
+         "Streams: corners may move so far from picture to picture (default: 1/400 of the width)")
       ->check(CLI::NonNegativeNumber);
 }
 
@@ -68,8 +72,9 @@ void AddFit(CLI::App& app, Arguments& arguments, Texts& texts) {
       ->capture_default_str();
   app.add_flag("--fix-aspect", arguments.calibration.lens.has_fixed_aspect, "fx = fy");
   app.add_flag("--zero-tangent", arguments.calibration.lens.has_zero_tangent, "p1 = p2 = 0");
-  app.add_option("--least-change", texts.change_percent,
-                 "Views are too similar when corners lie nearer, % of the width (files 2, streams 6)")
+  app.add_option(
+         "--least-change", texts.change_percent,
+         "Views are too similar when corners lie nearer, % of the width (files 2, streams 6)")
       ->check(CLI::Range(0.0, 50.0));
   app.add_option("--most-edge-px", arguments.selection.most_edge_px,
                  "Wider edges are blurred (default: 4, or 1/200 of the width)")
@@ -114,13 +119,15 @@ CLI::App* AddStereo(CLI::App& app, Arguments& arguments, Texts& texts) {
   stereo->add_flag("--side-by-side", arguments.feed.is_side_by_side,
                    "--source gives both cameras in one picture");
   AddFit(*stereo, arguments, texts);
-  stereo->add_flag("--joint", texts.is_joint,
-                   "Fit the lenses again together with the cameras' places");
-  stereo->add_option("--alpha", arguments.calibration.alpha,
-                     "Rectified pictures: 0 = only pixels that both have, 1 = all of them")
+  stereo->add_flag("--fixed-lenses", texts.has_fixed_lenses,
+                   "Keep each camera's own lens: only the cameras' places are fitted together");
+  stereo
+      ->add_option("--alpha", arguments.calibration.alpha,
+                   "Rectified pictures: 0 = only pixels that both have, 1 = all of them")
       ->check(CLI::Range(0.0, 1.0));
-  stereo->add_option("-o,--output", arguments.output,
-                     "Folder to write intrinsics.yml and extrinsics.yml to")
+  stereo
+      ->add_option("-o,--output", arguments.output,
+                   "Folder to write intrinsics.yml and extrinsics.yml to")
       ->required();
   AddOutput(*stereo, arguments, texts);
   return stereo;
@@ -194,7 +201,7 @@ void ReadTexts(const Texts& texts, Arguments& arguments) {
   }
   RequireOneFeed(arguments);
   ReadModel(texts, arguments.calibration);
-  if (texts.is_joint) arguments.calibration.refinement = Refinement::kJoint;
+  if (texts.has_fixed_lenses) arguments.calibration.refinement = Refinement::kPlacesOnly;
   const bool is_files = !arguments.feed.left.empty();
   if (!texts.size.empty()) arguments.feed.device_size = ParseSize(texts.size, "--size");
   const double change_percent =

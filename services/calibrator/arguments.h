@@ -15,7 +15,7 @@ enum class Task { kCamera, kStereo, kPrintBoard };
 
 /// Where pictures come from: exactly one of files, source and channel.
 struct FeedArguments {
-  std::vector<std::string> left;   ///< Files; one camera: its pictures.
+  std::vector<std::string> left;  ///< Files; one camera: its pictures.
   std::vector<std::string> right;
   std::string source;
   std::string right_source;
@@ -40,8 +40,8 @@ struct Arguments {
   SelectionConfig selection;
   CalibrationOptions calibration;
   Demands demands;
-  int most_views = 40;     ///< Streams: enough.
-  double seconds = 0.0;    ///< Streams: time for collecting, by their own clock; 0 = no limit.
+  int most_views = 40;   ///< Streams: enough.
+  double seconds = 0.0;  ///< Streams: time for collecting, by their own clock; 0 = no limit.
   std::filesystem::path output;  ///< File, or for stereo a folder; for a board the file to print.
   std::filesystem::path save;    ///< Folder for pictures; empty = none.
   std::string time;

@@ -87,10 +87,10 @@ class Collector {
         pictures_(pictures),
         out_(out),
         complaints_(feed.kind(), out),
-        collected_{ViewSelection(SelectionFor(feed, arguments),
-                                 arguments.task == Task::kStereo ? 2 : 1),
-                   {},
-                   0} {}
+        collected_{
+            ViewSelection(SelectionFor(feed, arguments), arguments.task == Task::kStereo ? 2 : 1),
+            {},
+            0} {}
 
   Collected Run(const std::function<bool()>& is_stopped) {
     Clock::time_point tell = Clock::now() + kTellEvery;
@@ -142,8 +142,8 @@ class Collector {
     const std::size_t views = collected_.selection.shots().size();
     const bool has_all = feed_.kind() == FeedKind::kLive && views >= kEnoughWithoutAdvice &&
                          collected_.selection.Advice().empty();
-    const bool is_late = arguments_.seconds > 0.0 &&
-                         SecondsBetween(first_time_, last_time_) >= arguments_.seconds;
+    const bool is_late =
+        arguments_.seconds > 0.0 && SecondsBetween(first_time_, last_time_) >= arguments_.seconds;
     return has_all || is_late || views >= static_cast<std::size_t>(arguments_.most_views);
   }
 

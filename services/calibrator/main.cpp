@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
   StopOnSignals();
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {
-    return Run(arguments, [] { return stop_requested != 0; }, std::cout);
+    return Run(
+        arguments, [] { return stop_requested != 0; }, std::cout);
   } catch (const std::exception& error) {
     std::cerr << "deixis-calibrator: " << error.what() << "\n";
     return deixis::program::kCannotWork;

@@ -39,8 +39,8 @@ PictureFolder::PictureFolder(const fs::path& folder) : folder_(folder) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (!fs::is_directory(folder_)) {
-    throw std::runtime_error("--save '" + folder_.string() + "' cannot be made: " +
-                             error.message() + "; name another folder");
+    throw std::runtime_error("--save '" + folder_.string() +
+                             "' cannot be made: " + error.message() + "; name another folder");
   }
 }
 

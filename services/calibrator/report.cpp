@@ -70,8 +70,9 @@ void ReportStereo(const StereoCalibration& calibration, const std::vector<Shot>&
   ReportCamera(calibration.left, shots, "left ", out);
   ReportCamera(calibration.right, shots, "right ", out);
   const cv::Vec3d& t = calibration.fit.translation_m;
-  out << Figures("stereo, %zu pairs: reprojection error %.3f px, baseline %.4f m (T %.4f %.4f %.4f)\n",
-                 calibration.used.size(), calibration.fit.error_px, cv::norm(t), t[0], t[1], t[2]);
+  out << Figures(
+      "stereo, %zu pairs: reprojection error %.3f px, baseline %.4f m (T %.4f %.4f %.4f)\n",
+      calibration.used.size(), calibration.fit.error_px, cv::norm(t), t[0], t[1], t[2]);
   const ErrorSummary& rows = calibration.rows_px;
   out << Figures("  rows differ after rectification: mean %.3f, median %.3f, p95 %.3f px\n",
                  rows.mean, rows.median, rows.p95);

@@ -38,8 +38,8 @@ std::unique_ptr<capture::Source> SourceOf(const FeedArguments& feed, const std::
 std::unique_ptr<Feed> SourceFeedOf(const FeedArguments& feed) {
   auto source = SourceOf(feed, feed.source, "--source");
   if (!feed.right_source.empty()) {
-    return std::make_unique<TwoSourceFeed>(
-        std::move(source), SourceOf(feed, feed.right_source, "--right-source"));
+    return std::make_unique<TwoSourceFeed>(std::move(source),
+                                           SourceOf(feed, feed.right_source, "--right-source"));
   }
   return std::make_unique<SourceFeed>(std::move(source), feed.is_side_by_side
                                                              ? PictureLayout::kSideBySide
@@ -157,9 +157,8 @@ int Run(const Arguments& arguments, const std::function<bool()>& is_stopped, std
   const Collected collected = Collect(*feed, board, arguments, pictures, is_stopped, out);
   RequireViews(collected, *feed);
   ReportFates(collected.selection, feed->trouble(), out);
-  return arguments.task == Task::kCamera
-             ? FinishCamera(arguments, board, collected, pictures, out)
-             : FinishStereo(arguments, board, collected, pictures, out);
+  return arguments.task == Task::kCamera ? FinishCamera(arguments, board, collected, pictures, out)
+                                         : FinishStereo(arguments, board, collected, pictures, out);
 }
 
 }  // namespace deixis::calibrator

@@ -35,6 +35,7 @@ COMMANDS: dict[str, Command] = {
     "record": Command(f"{_PACKAGE}.record", "write the messages on the bus to a log file"),
     "replay": Command(f"{_PACKAGE}.replay", "publish the messages of a log file"),
     "run-offline": Command(f"{_PACKAGE}.run_offline", "log in, services, log out, without a bus"),
+    "calibrate": Command(f"{_PACKAGE}.calibrate", "lenses and stereo from pictures of a board"),
     "evaluate": Command(f"{_PACKAGE}.evaluate", "measure results against recordings with truth"),
     "train-gestures": Command("deixis_frontend.training.gestures", "learn gesture models"),
     "train-hands": Command("deixis_frontend.training.hands", "learn what hands look like"),

@@ -23,8 +23,9 @@ void RequireValid(const BoardConfig& config) {
   const int smaller = std::min(config.count.width, config.count.height);
   const int larger = std::max(config.count.width, config.count.height);
   Require(smaller >= least && larger <= kMostPerSide,
-          is_chessboard ? "--board must be 3x3 to 100x100 inner corners (count where four squares meet)"
-                        : "--charuco must be 4x4 to 100x100 squares");
+          is_chessboard
+              ? "--board must be 3x3 to 100x100 inner corners (count where four squares meet)"
+              : "--charuco must be 4x4 to 100x100 squares");
   Require(config.square_m > 0.0005 && config.square_m < 5.0,
           "--square is the side of a square in metres (0.025 = 25 mm)");
   Require(is_chessboard || (config.marker_m > 0.0 && config.marker_m < config.square_m),
@@ -45,7 +46,8 @@ Board MakeBoard(const BoardConfig& config) {
 std::vector<cv::Point3f> PointsOnBoard(const BoardLayout& layout, const Corners& corners) {
   std::vector<cv::Point3f> points;
   points.reserve(corners.ids.size());
-  for (const int id : corners.ids) points.push_back(layout.corners_m.at(static_cast<std::size_t>(id)));
+  for (const int id : corners.ids)
+    points.push_back(layout.corners_m.at(static_cast<std::size_t>(id)));
   return points;
 }
 

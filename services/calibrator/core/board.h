@@ -18,7 +18,7 @@ struct BoardConfig {
   BoardKind kind = BoardKind::kChessboard;
   cv::Size count{9, 6};  ///< Chessboard: inner corners per row, rows. ChArUco: squares.
   double square_m = 0.025;
-  double marker_m = 0.018;              ///< ChArUco: side of a marker, below that of a square.
+  double marker_m = 0.018;             ///< ChArUco: side of a marker, below that of a square.
   std::string dictionary = "5X5_100";  ///< ChArUco: OpenCV's name without DICT_.
 };
 
@@ -27,10 +27,10 @@ void RequireValid(const BoardConfig& config);
 
 /// Where things are on the paper: metres, origin at the board's top left, x right, y down.
 struct BoardLayout {
-  cv::Size corners;                    ///< Inner corners per row, rows; corner id = row * columns + column.
+  cv::Size corners;  ///< Inner corners per row, rows; corner id = row * columns + column.
   double square_m = 0.0;
-  bool has_certain_ids = false;        ///< Markers tell one end of the board from the other.
-  double clear_m = 0.0;                ///< No print on the white side of an edge within this distance.
+  bool has_certain_ids = false;  ///< Markers tell one end of the board from the other.
+  double clear_m = 0.0;          ///< No print on the white side of an edge within this distance.
   std::vector<cv::Point3f> corners_m;  ///< By id; z = 0.
   std::vector<cv::Rect2d> black_m;     ///< What is printed.
   cv::Size2d size_m;

@@ -131,13 +131,13 @@ std::string BoardPdf(const BoardLayout& layout, const std::string& caption) {
   const std::string content = PageContent(layout, caption, page);
   std::ostringstream box;
   box << "[0 0 " << page.width * kPointsPerMetre << ' ' << page.height * kPointsPerMetre << "]";
-  return PdfOf({"<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >> >>",
-                "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
-                "<< /Type /Page /Parent 2 0 R /MediaBox " + box.str() +
-                    " /Contents 4 0 R /Resources << /Font << /F1 5 0 R >> >> >>",
-                "<< /Length " + std::to_string(content.size()) + " >>\nstream\n" + content +
-                    "endstream",
-                "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica >>"});
+  return PdfOf(
+      {"<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >> >>",
+       "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+       "<< /Type /Page /Parent 2 0 R /MediaBox " + box.str() +
+           " /Contents 4 0 R /Resources << /Font << /F1 5 0 R >> >> >>",
+       "<< /Length " + std::to_string(content.size()) + " >>\nstream\n" + content + "endstream",
+       "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica >>"});
 }
 
 std::vector<std::uint8_t> BoardPng(const BoardLayout& layout, const std::string& caption) {

@@ -16,7 +16,7 @@ enum class ModelChoice {
 struct CalibrationOptions {
   LensOptions lens;
   ModelChoice choice = ModelChoice::kAsGiven;
-  Refinement refinement = Refinement::kPlacesOnly;
+  Refinement refinement = Refinement::kJoint;
   double alpha = 0.0;  ///< Of the rectification: 0 = only pixels that both have, 1 = all of them.
 };
 
@@ -40,13 +40,13 @@ struct StereoCalibration {
   CameraCalibration left;
   CameraCalibration right;
   StereoFit fit;
-  std::vector<std::size_t> used;          ///< Shots of the fit.
-  std::vector<DroppedView> dropped;       ///< Shots that do not go with the others; row differences.
-  std::vector<PairError> pairs;           ///< Of the shots in the fit.
-  ErrorSummary rows_px;                   ///< Row differences of the shots in the fit.
+  std::vector<std::size_t> used;     ///< Shots of the fit.
+  std::vector<DroppedView> dropped;  ///< Shots that do not go with the others; row differences.
+  std::vector<PairError> pairs;      ///< Of the shots in the fit.
+  ErrorSummary rows_px;              ///< Row differences of the shots in the fit.
   std::optional<ErrorSummary> held_out_rows_px;  ///< Of shots that had no part in it, five groups.
-  ErrorSummary square_errors;             ///< Of distances between neighbours, relative.
-  double median_square = 1.0;             ///< Measured over true; 1 = the scale is right.
+  ErrorSummary square_errors;                    ///< Of distances between neighbours, relative.
+  double median_square = 1.0;                    ///< Measured over true; 1 = the scale is right.
 };
 
 /// Throws FitFailed.

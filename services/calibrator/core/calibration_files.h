@@ -15,7 +15,8 @@ struct FileText {
 
 /// What stands in the files besides the calibration.
 struct Notes {
-  std::string time;    ///< calibration_time; empty = left out, so that the same input gives the same bytes.
+  std::string
+      time;  ///< calibration_time; empty = left out, so that the same input gives the same bytes.
   std::string remark;  ///< What is wrong with a calibration that was written all the same.
 };
 

@@ -6,8 +6,8 @@ namespace deixis::calibrator {
 namespace {
 
 constexpr double kTiltWanted_deg = 15.0;
-constexpr double kNearWanted = 0.45;   // Extent: a fifth of the picture.
-constexpr double kRangeWanted = 1.3;   // Between the nearest and the farthest view.
+constexpr double kNearWanted = 0.45;  // Extent: a fifth of the picture.
+constexpr double kRangeWanted = 1.3;  // Between the nearest and the farthest view.
 
 int CellOf(double share, int count) {
   return std::clamp(static_cast<int>(share * count), 0, count - 1);
@@ -21,10 +21,10 @@ struct Region {
 // Corners of the picture first: they say most about the distortion, and are forgotten most.
 const std::vector<Region>& Regions() {
   static const std::vector<Region> kRegions{
-      {"the upper left", {0, 0, 2, 2}},  {"the upper right", {6, 0, 2, 2}},
-      {"the lower left", {0, 4, 2, 2}},  {"the lower right", {6, 4, 2, 2}},
-      {"the left edge", {0, 2, 2, 2}},   {"the right edge", {6, 2, 2, 2}},
-      {"the upper edge", {2, 0, 4, 2}},  {"the lower edge", {2, 4, 4, 2}},
+      {"the upper left", {0, 0, 2, 2}}, {"the upper right", {6, 0, 2, 2}},
+      {"the lower left", {0, 4, 2, 2}}, {"the lower right", {6, 4, 2, 2}},
+      {"the left edge", {0, 2, 2, 2}},  {"the right edge", {6, 2, 2, 2}},
+      {"the upper edge", {2, 0, 4, 2}}, {"the lower edge", {2, 4, 4, 2}},
       {"the middle", {2, 2, 4, 2}}};
   return kRegions;
 }

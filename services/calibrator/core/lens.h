@@ -27,7 +27,7 @@ struct Lens {
 
 /// Where the board is: camera_from_board.
 struct BoardPose {
-  cv::Vec3d rotation;       ///< Rodrigues' vector.
+  cv::Vec3d rotation;  ///< Rodrigues' vector.
   cv::Vec3d translation_m;
 };
 

@@ -1,6 +1,7 @@
 #include "services/calibrator/core/lens_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
@@ -51,8 +52,8 @@ std::vector<BoardPose> Poses(const std::vector<cv::Mat>& rotations,
                              const std::vector<cv::Mat>& translations) {
   std::vector<BoardPose> poses;
   for (std::size_t i = 0; i < rotations.size(); ++i) {
-    poses.push_back({cv::Vec3d(rotations[i].ptr<double>()),
-                     cv::Vec3d(translations[i].ptr<double>())});
+    poses.push_back(
+        {cv::Vec3d(rotations[i].ptr<double>()), cv::Vec3d(translations[i].ptr<double>())});
   }
   return poses;
 }
@@ -101,14 +102,21 @@ void FitPinhole(const Data& data, const LensOptions& options, LensFit& fit) {
   fit.poses = Poses(rotations, translations);
 }
 
-void FitFisheye(const Data& data, LensFit& fit) {
-  cv::Mat matrix = cv::Mat::eye(3, 3, CV_64F);
-  cv::Mat distortion;
+// Focal lengths to start from, of the width: OpenCV's own start, that of 180 degrees, fails on
+// lenses that see less.
+constexpr std::array<double, 4> kFisheyeStarts{0.32, 0.5, 0.8, 1.3};
+
+void FitFisheyeFrom(double focal_px, const Data& data, LensFit& fit) {
+  const cv::Size size = fit.lens.size;
+  cv::Mat matrix = cv::Mat(cv::Matx33d(focal_px, 0, 0.5 * (size.width - 1), 0, focal_px,
+                                       0.5 * (size.height - 1), 0, 0, 1),
+                           true);
+  cv::Mat distortion = cv::Mat::zeros(4, 1, CV_64F);
   std::vector<cv::Mat> rotations;
   std::vector<cv::Mat> translations;
-  cv::fisheye::calibrate(data.object, data.image, fit.lens.size, matrix, distortion, rotations,
-                         translations,
-                         cv::fisheye::CALIB_RECOMPUTE_EXTRINSIC | cv::fisheye::CALIB_FIX_SKEW,
+  cv::fisheye::calibrate(data.object, data.image, size, matrix, distortion, rotations, translations,
+                         cv::fisheye::CALIB_RECOMPUTE_EXTRINSIC | cv::fisheye::CALIB_FIX_SKEW |
+                             cv::fisheye::CALIB_USE_INTRINSIC_GUESS,
                          kUntilStill);
   fit.lens.matrix = matrix;
   fit.lens.distortion.assign(distortion.begin<double>(), distortion.end<double>());
@@ -120,6 +128,24 @@ bool IsFinite(const Lens& lens) {
          lens.matrix(0, 0) > 0.0 && lens.matrix(1, 1) > 0.0;
 }
 
+LensFit FitFisheye(const Data& data, const std::vector<Corners>& views, const BoardLayout& layout,
+                   const LensFit& start) {
+  std::optional<LensFit> best;
+  for (const double share : kFisheyeStarts) {
+    LensFit fit = start;
+    try {
+      FitFisheyeFrom(share * start.lens.size.width, data, fit);
+    } catch (const cv::Exception&) {
+      continue;  // The next start may do.
+    }
+    if (!IsFinite(fit.lens)) continue;
+    MeasureErrors(fit, views, layout);
+    if (!best || fit.error_px < best->error_px) best = fit;
+  }
+  if (!best) throw cv::Exception();
+  return *best;
+}
+
 LensFit FitWithoutDeviations(const std::vector<Corners>& views, const BoardLayout& layout,
                              cv::Size size, const LensOptions& options) {
   if (views.size() < kFewestViews) throw FitFailed("three views are the least: show more");
@@ -128,11 +154,8 @@ LensFit FitWithoutDeviations(const std::vector<Corners>& views, const BoardLayou
   fit.lens.size = size;
   try {
     const Data data = DataOf(views, layout);
-    if (options.model == LensModel::kFisheye) {
-      FitFisheye(data, fit);
-    } else {
-      FitPinhole(data, options, fit);
-    }
+    if (options.model == LensModel::kFisheye) return FitFisheye(data, views, layout, fit);
+    FitPinhole(data, options, fit);
   } catch (const cv::Exception&) {
     throw FitFailed("the views determine no " + NameOf(options.model) +
                     " lens: tilt the board more, cover the picture, or take another --model");
@@ -189,16 +212,16 @@ std::vector<std::size_t> Without(const std::vector<std::size_t>& indices, std::s
 }
 
 /// The worst view of `result`, when it is an outlier.
-std::optional<DroppedView> FindOutlier(const std::vector<Corners>& views,
-                                       const BoardLayout& layout, cv::Size size,
-                                       const LensOptions& options, const RobustLensFit& result) {
+std::optional<DroppedView> FindOutlier(const std::vector<Corners>& views, const BoardLayout& layout,
+                                       cv::Size size, const LensOptions& options,
+                                       const RobustLensFit& result) {
   const auto& errors = result.fit.view_errors_px;
   const auto worst = std::max_element(errors.begin(), errors.end());
   if (*worst < std::max(kHarmless_px, kSuspicious * Median(errors))) return std::nullopt;
   const auto position = static_cast<std::size_t>(worst - errors.begin());
   const std::size_t index = result.used[position];
-  const LensFit without = FitWithoutDeviations(At(views, Without(result.used, position)), layout,
-                                               size, options);
+  const LensFit without =
+      FitWithoutDeviations(At(views, Without(result.used, position)), layout, size, options);
   const double others_px = Median(without.view_errors_px);
   const double error_px = ReprojectionError_px(without.lens, layout, views[index]).value_or(1e6);
   if (error_px < std::max(kHarmless_px, kOutlying * others_px)) return std::nullopt;

@@ -23,8 +23,8 @@ struct LensOptions {
 
 struct LensFit {
   Lens lens;
-  std::vector<double> deviations;  ///< Standard deviations of fx fy cx cy and the distortion.
-  std::vector<BoardPose> poses;    ///< One per view.
+  std::vector<double> deviations;      ///< Standard deviations of fx fy cx cy and the distortion.
+  std::vector<BoardPose> poses;        ///< One per view.
   std::vector<double> view_errors_px;  ///< Root mean square per view.
   double error_px = 0.0;               ///< Of all corners.
 };

@@ -90,8 +90,8 @@ cv::Mat DrawCoverage(const Coverage& coverage, const std::vector<Corners>& views
       cv::circle(drawn, Fixed(point), 2 << kShift, kWhite, cv::FILLED, cv::LINE_AA, kShift);
     }
   }
-  Write(drawn, Figures("%zu views, %.0f %% of the picture covered; red: no corner yet", views.size(),
-                    100.0 * coverage.share()));
+  Write(drawn, Figures("%zu views, %.0f %% of the picture covered; red: no corner yet",
+                       views.size(), 100.0 * coverage.share()));
   return drawn;
 }
 
@@ -110,7 +110,7 @@ cv::Mat DrawResiduals(const LensFit& fit, const std::vector<Corners>& views,
   const cv::Point2d centre(fit.lens.matrix(0, 2), fit.lens.matrix(1, 2));
   cv::drawMarker(drawn, centre, kWhite, cv::MARKER_CROSS, 20, 1, cv::LINE_AA);
   Write(drawn, Figures("residuals x %.0f, rms %.3f px; cross: principal point; a colour per view",
-                    kResidualScale, fit.error_px));
+                       kResidualScale, fit.error_px));
   return drawn;
 }
 

@@ -36,9 +36,10 @@ void Straighten(std::vector<std::vector<cv::Point2f>>& pictures, Lens& lens) {
 }
 
 int Flags(const LensOptions& options, Refinement refinement) {
-  if (refinement == Refinement::kPlacesOnly) return cv::CALIB_FIX_INTRINSIC;
-  int flags = cv::CALIB_USE_INTRINSIC_GUESS;
-  if (options.model == LensModel::kRational) flags |= cv::CALIB_RATIONAL_MODEL;
+  // Without the flag of the model, OpenCV takes k4 to k6 of a fixed lens for zero.
+  int flags = options.model == LensModel::kRational ? cv::CALIB_RATIONAL_MODEL : 0;
+  if (refinement == Refinement::kPlacesOnly) return flags | cv::CALIB_FIX_INTRINSIC;
+  flags |= cv::CALIB_USE_INTRINSIC_GUESS;
   if (options.has_fixed_aspect) flags |= cv::CALIB_FIX_ASPECT_RATIO;
   if (options.has_zero_tangent) flags |= cv::CALIB_ZERO_TANGENT_DIST;
   return flags;
@@ -70,7 +71,8 @@ std::vector<cv::Point2f> Rectified(const Lens& lens, const Corners& corners,
   return Undistort(lens, corners.points_px, rotation, projection);
 }
 
-cv::Point3d Triangulate(const cv::Matx44d& disparity_to_depth, cv::Point2d left, cv::Point2d right) {
+cv::Point3d Triangulate(const cv::Matx44d& disparity_to_depth, cv::Point2d left,
+                        cv::Point2d right) {
   const cv::Vec4d point = disparity_to_depth * cv::Vec4d(left.x, left.y, left.x - right.x, 1.0);
   return {point[0] / point[3], point[1] / point[3], point[2] / point[3]};
 }
@@ -121,11 +123,10 @@ Rectification Rectify(const StereoFit& fit, double alpha) {
   Rectification result;
   if (fit.left.model == LensModel::kFisheye) {
     cv::fisheye::stereoRectify(fit.left.matrix, fit.left.distortion, fit.right.matrix,
-                               fit.right.distortion, fit.left.size, fit.rotation,
-                               fit.translation_m, result.left_rotation, result.right_rotation,
-                               result.left_projection, result.right_projection,
-                               result.disparity_to_depth, cv::CALIB_ZERO_DISPARITY, fit.left.size,
-                               alpha);
+                               fit.right.distortion, fit.left.size, fit.rotation, fit.translation_m,
+                               result.left_rotation, result.right_rotation, result.left_projection,
+                               result.right_projection, result.disparity_to_depth,
+                               cv::CALIB_ZERO_DISPARITY, fit.left.size, alpha);
   } else {
     cv::stereoRectify(fit.left.matrix, fit.left.distortion, fit.right.matrix, fit.right.distortion,
                       fit.left.size, fit.rotation, fit.translation_m, result.left_rotation,
@@ -139,9 +140,10 @@ std::vector<double> RowDifferences_px(const StereoFit& fit, const CornerPair& pa
   const Rectification& r = fit.rectification;
   const auto left = Rectified(fit.left, pair.first, r.left_rotation, r.left_projection);
   const auto right = Rectified(fit.right, pair.second, r.right_rotation, r.right_projection);
+  const double scale = fit.left.matrix(1, 1) / r.left_projection(1, 1);
   std::vector<double> differences;
   for (std::size_t i = 0; i < left.size(); ++i) {
-    differences.push_back(static_cast<double>(left[i].y) - static_cast<double>(right[i].y));
+    differences.push_back(scale * (static_cast<double>(left[i].y) - right[i].y));
   }
   return differences;
 }

@@ -27,9 +27,9 @@ struct Rectification {
 struct StereoFit {
   Lens left;
   Lens right;
-  cv::Matx33d rotation;       ///< right_from_left.
-  cv::Vec3d translation_m;    ///< right_from_left; x < 0 when the right camera is on the right.
-  double error_px = 0.0;      ///< Root mean square reprojection error over both cameras.
+  cv::Matx33d rotation;     ///< right_from_left.
+  cv::Vec3d translation_m;  ///< right_from_left; x < 0 when the right camera is on the right.
+  double error_px = 0.0;    ///< Root mean square reprojection error over both cameras.
   Rectification rectification;
 };
 
@@ -47,7 +47,8 @@ StereoFit FitStereo(const std::vector<CornerPair>& pairs, const BoardLayout& lay
 /// Rectification for `fit`; `alpha` 0 = only pixels that both pictures have, 1 = all of them.
 Rectification Rectify(const StereoFit& fit, double alpha);
 
-/// Row in the left minus row in the right rectified picture, per corner, pixels.
+/// Row in the left minus row in the right rectified picture, per corner; in pixels of the left
+/// camera, however much the rectified pictures are enlarged.
 std::vector<double> RowDifferences_px(const StereoFit& fit, const CornerPair& pair);
 
 /// Distances between neighbouring corners, as the two cameras measure them, over the true one.

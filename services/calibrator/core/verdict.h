@@ -9,11 +9,11 @@ namespace deixis::calibrator {
 
 /// What a calibration must keep to be written.
 struct Demands {
-  int views = 8;                   ///< At least.
-  double coverage = 0.4;           ///< Share of the picture's 8 x 6 cells with corners, at least.
-  double error_px = 1.0;           ///< Reprojection error, at most.
-  double rows_px = 1.0;            ///< Stereo: median row difference, at most.
-  double focal_deviation = 0.02;   ///< Standard deviation of the focal length over itself, at most.
+  int views = 8;                  ///< At least.
+  double coverage = 0.4;          ///< Share of the picture's 8 x 6 cells with corners, at least.
+  double error_px = 1.0;          ///< Reprojection error, at most.
+  double rows_px = 1.0;           ///< Stereo: median row difference, at most.
+  double focal_deviation = 0.02;  ///< Standard deviation of the focal length over itself, at most.
 };
 
 /// What speaks against a camera's calibration, each with its cure; empty when nothing does.

@@ -78,11 +78,10 @@ std::optional<Judgement> ViewSelection::JudgeSizes(
     const cv::Size wanted = shots_.front().views[camera].size;
     const cv::Size size = views[camera]->size;
     if (size == wanted) continue;
-    return Judgement{Fate::kOtherSize, CameraName(camera, views.size()) +
-                                           std::to_string(size.width) + "x" +
-                                           std::to_string(size.height) + ", not " +
-                                           std::to_string(wanted.width) + "x" +
-                                           std::to_string(wanted.height) + " as the first"};
+    return Judgement{Fate::kOtherSize,
+                     CameraName(camera, views.size()) + std::to_string(size.width) + "x" +
+                         std::to_string(size.height) + ", not " + std::to_string(wanted.width) +
+                         "x" + std::to_string(wanted.height) + " as the first"};
   }
   return std::nullopt;
 }
@@ -100,14 +99,13 @@ std::optional<Judgement> ViewSelection::JudgeBlur(
   return std::nullopt;
 }
 
-std::optional<Judgement> ViewSelection::JudgeMotion(
-    const std::vector<std::optional<View>>& views) {
+std::optional<Judgement> ViewSelection::JudgeMotion(const std::vector<std::optional<View>>& views) {
   if (config_.most_motion_px == 0.0) return std::nullopt;
   for (std::size_t camera = 0; camera < views.size(); ++camera) {
     const bool was_there = before_.size() == views.size() && before_[camera];
-    const auto motion_px =
-        was_there ? CornerMotion_px(before_[camera]->corners, views[camera]->corners)
-                  : std::nullopt;
+    const auto motion_px = was_there
+                               ? CornerMotion_px(before_[camera]->corners, views[camera]->corners)
+                               : std::nullopt;
     if (!motion_px) return Judgement{Fate::kMoving, "hold the board still"};
     const double most_px = MostMotion_px(config_, views[camera]->size);
     if (*motion_px <= most_px) continue;
@@ -123,16 +121,16 @@ std::optional<Judgement> ViewSelection::JudgeChange(
   for (const Shot& shot : shots_) {
     const auto way_px = CornerMotion_px(shot.views[0].corners, views[0]->corners);
     if (!way_px || *way_px >= config_.least_change * views[0]->size.width) continue;
-    return Judgement{Fate::kTooSimilar, "corners lie " + Figures("%.1f", *way_px) + " px from those of " +
-                                            shot.name};
+    return Judgement{Fate::kTooSimilar,
+                     "corners lie " + Figures("%.1f", *way_px) + " px from those of " + shot.name};
   }
   return std::nullopt;
 }
 
 std::vector<std::string> ViewSelection::Advice() const {
-  const auto least = std::min_element(
-      coverages_.begin(), coverages_.end(),
-      [](const Coverage& a, const Coverage& b) { return a.share() < b.share(); });
+  const auto least =
+      std::min_element(coverages_.begin(), coverages_.end(),
+                       [](const Coverage& a, const Coverage& b) { return a.share() < b.share(); });
   return least->Advice();
 }
 

@@ -10,7 +10,7 @@
 namespace deixis::calibrator {
 
 struct SelectionConfig {
-  double most_edge_px = 0.0;    ///< More is blurred; 0 = 4 px, or 1/200 of the width if that is more.
+  double most_edge_px = 0.0;  ///< More is blurred; 0 = 4 px, or 1/200 of the width if that is more.
   double least_change = 0.02;   ///< Mean way of the corners from every earlier view, of the width.
   double most_motion_px = 0.0;  ///< Between one picture and the next; 0 = pictures stand alone;
                                 ///< below 0 = 1/400 of the width.
@@ -19,7 +19,7 @@ struct SelectionConfig {
 /// What became of a shot.
 enum class Fate {
   kAccepted,
-  kNoBoard,     ///< Not found, in one of the pictures at least.
+  kNoBoard,  ///< Not found, in one of the pictures at least.
   kBlurred,
   kMoving,      ///< Corners moved since the picture before, or there was none yet.
   kTooSimilar,  ///< As one of the views accepted before.

@@ -26,12 +26,14 @@ BusFeed::BusFeed(std::unique_ptr<transport::Bus> bus, const std::string& channel
     return;
   }
 #ifdef DEIXIS_HAS_STEREO_PAIR_MESSAGE
-  bus_->Subscribe<images::StereoPair>(
-      channel, transport::Delivery::kLatest, [this](const images::StereoPair& pair) {
-        Keep(pair.left.time, {pair.left.bgr, pair.right.bgr});
-      });
+  bus_->Subscribe<images::StereoPair>(channel, transport::Delivery::kLatest,
+                                      [this](const images::StereoPair& pair) {
+                                        Keep(pair.left.time, {pair.left.bgr, pair.right.bgr});
+                                      });
 #else
-  throw config::ConfigError("--channel cannot be read in pairs by this build; record pictures and give --left and --right");
+  throw config::ConfigError(
+      "--channel cannot be read in pairs by this build; record pictures and give --left and "
+      "--right");
 #endif
 }
 
@@ -46,9 +48,7 @@ Take BusFeed::Next() {
   return {is_over ? capture::SourceState::kFinished : capture::SourceState::kWaiting, std::nullopt};
 }
 
-FeedKind BusFeed::kind() const {
-  return bus_->is_live() ? FeedKind::kLive : FeedKind::kRecording;
-}
+FeedKind BusFeed::kind() const { return bus_->is_live() ? FeedKind::kLive : FeedKind::kRecording; }
 
 std::string BusFeed::trouble() const {
   return pictures_ == 0 ? "no pictures have come on channel " + channel_ : "";

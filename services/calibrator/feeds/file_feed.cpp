@@ -44,8 +44,8 @@ std::vector<fs::path> FilesOf(const std::vector<std::string>& words, const std::
       std::error_code ignored;
       if (fs::is_directory(file, ignored)) {
         throw config::ConfigError(option + " '" + file.string() + "' is a folder; name '" +
-                                  (file / "*.png").string() + "' or give --source folder:" +
-                                  file.string());
+                                  (file / "*.png").string() +
+                                  "' or give --source folder:" + file.string());
       }
       files.push_back(file);
     }

@@ -89,8 +89,8 @@ Take TwoSourceFeed::Next() {
     WaitIfLive(*sources_[0]);
     return {capture::SourceState::kWaiting, std::nullopt};
   }
-  Sight sight{"pair " + std::to_string(++pairs_), waiting_[0]->time,
-              {waiting_[0]->bgr, waiting_[1]->bgr}};
+  Sight sight{
+      "pair " + std::to_string(++pairs_), waiting_[0]->time, {waiting_[0]->bgr, waiting_[1]->bgr}};
   waiting_[0].reset();
   waiting_[1].reset();
   return {capture::SourceState::kPicture, std::move(sight)};
@@ -128,7 +128,8 @@ std::unique_ptr<capture::Source> OpenSource(const capture::SourceConfig& config)
   config::Faults faults;
   config.Check(faults);
   faults.ThrowIfAny();
-  return capture::MakeSource(config, {Now<std::chrono::system_clock>, Now<std::chrono::steady_clock>});
+  return capture::MakeSource(config,
+                             {Now<std::chrono::system_clock>, Now<std::chrono::steady_clock>});
 }
 
 }  // namespace deixis::calibrator

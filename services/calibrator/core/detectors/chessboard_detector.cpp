@@ -9,7 +9,8 @@ namespace {
 
 /// Share of a square's side over which an edge is free of other print.
 constexpr double kClearShare = 0.35;
-constexpr int kLargestWindow_px = 11;  // Half the side of the window of the refinement.
+constexpr double kWindowShare = 0.3;  // Half the side of a corner's window, of the way to the next.
+constexpr int kLargestWindow_px = 15;
 
 BoardLayout LayoutOf(const BoardConfig& config) {
   BoardLayout layout;
@@ -33,18 +34,20 @@ BoardLayout LayoutOf(const BoardConfig& config) {
   return layout;
 }
 
-/// The shortest way between neighbours in a row or a column.
-double SmallestSpacing_px(const std::vector<cv::Point2f>& points, cv::Size count) {
-  double smallest = 1e9;
-  for (int i = 0; i < count.area(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (i % count.width > 0) smallest = std::min(smallest, cv::norm(points[at] - points[at - 1]));
-    if (i >= count.width) {
-      const auto above = static_cast<std::size_t>(i - count.width);
-      smallest = std::min(smallest, cv::norm(points[at] - points[above]));
-    }
+/// The shortest way from each corner to a neighbour in its row or column, pixels.
+std::vector<double> Spacings_px(const std::vector<cv::Point2f>& points, cv::Size count) {
+  std::vector<double> spacings(points.size(), 1e9);
+  const auto note = [&](std::size_t a, std::size_t b) {
+    const double way_px = cv::norm(points[a] - points[b]);
+    spacings[a] = std::min(spacings[a], way_px);
+    spacings[b] = std::min(spacings[b], way_px);
+  };
+  const auto columns = static_cast<std::size_t>(count.width);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i % columns > 0) note(i, i - 1);
+    if (i >= columns) note(i, i - columns);
   }
-  return smallest;
+  return spacings;
 }
 
 class ChessboardDetector final : public CornerDetector {
@@ -63,12 +66,16 @@ class ChessboardDetector final : public CornerDetector {
   }
 
  private:
-  // A window that reaches the next corner would be drawn to it.
+  // Each corner in a window of its own: one that comes near the next corner is drawn to it.
   void Refine(const cv::Mat& grey, std::vector<cv::Point2f>& points) const {
-    const double room = 0.45 * SmallestSpacing_px(points, count_);
-    const int half = std::clamp(static_cast<int>(room), 2, kLargestWindow_px);
-    cv::cornerSubPix(grey, points, {half, half}, {-1, -1},
-                     {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-3});
+    const std::vector<double> spacings_px = Spacings_px(points, count_);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int half = std::clamp(cvRound(kWindowShare * spacings_px[i]), 2, kLargestWindow_px);
+      std::vector<cv::Point2f> corner{points[i]};
+      cv::cornerSubPix(grey, corner, {half, half}, {-1, -1},
+                       {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-3});
+      points[i] = corner.front();
+    }
   }
 
   cv::Size count_;
