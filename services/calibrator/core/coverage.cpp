@@ -51,6 +51,10 @@ double Coverage::share() const {
   return static_cast<double>(seen) / static_cast<double>(cells_.size());
 }
 
+double Coverage::largest_tilt_deg() const {
+  return std::max({most_right_deg_, most_left_deg_, most_down_deg_, most_up_deg_});
+}
+
 int Coverage::corners_in(int column, int row) const {
   return cells_.at(static_cast<std::size_t>(row * kCoverageColumns + column));
 }

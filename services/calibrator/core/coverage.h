@@ -17,6 +17,7 @@ class Coverage {
 
   /// Share of the picture's 8 x 6 cells in which corners were seen, 0..1.
   double share() const;
+  double largest_tilt_deg() const;  ///< Rough, as the views' own.
   int corners_in(int column, int row) const;
   /// What the next view should show, the most needed first; empty when nothing is missing.
   std::vector<std::string> Advice() const;

@@ -71,6 +71,10 @@ std::vector<std::string> FaultsOf(const CameraCalibration& calibration, const Co
                  Figures("a reprojection error of %.2f px is above %.2f: hold a flat board still, "
                          "check --board, or take a richer --model",
                          fit.error_px, demands.error_px));
+  faults.Require(coverage.largest_tilt_deg() >= demands.tilt_deg,
+                 Figures("the board was tilted by %.0f deg at most, %.0f are the least: tilt the "
+                         "board by 20 to 40 degrees, both ways",
+                         coverage.largest_tilt_deg(), demands.tilt_deg));
   if (!fit.deviations.empty()) {
     const double share = fit.deviations[0] / fit.lens.matrix(0, 0);
     faults.Require(share <= demands.focal_deviation,

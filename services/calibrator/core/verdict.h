@@ -11,6 +11,7 @@ namespace deixis::calibrator {
 struct Demands {
   int views = 8;                  ///< At least.
   double coverage = 0.4;          ///< Share of the picture's 8 x 6 cells with corners, at least.
+  double tilt_deg = 10.0;         ///< Of the board against the picture, once at least.
   double error_px = 1.0;          ///< Reprojection error, at most.
   double rows_px = 1.0;           ///< Stereo: median row difference, at most.
   double focal_deviation = 0.02;  ///< Standard deviation of the focal length over itself, at most.

@@ -41,8 +41,7 @@ TEST_P(WrongArguments, EndWithTwo) { EXPECT_EQ(Parse(GetParam()).exit_code, 2); 
 INSTANTIATE_TEST_SUITE_P(
     All, WrongArguments,
     ::testing::Values(
-        std::vector<const char*>{},
-        std::vector<const char*>{"camera"},
+        std::vector<const char*>{}, std::vector<const char*>{"camera"},
         std::vector<const char*>{"camera", "--board", "9", "--square", "0.02", "--pictures", "a",
                                  "-o", "c"},
         std::vector<const char*>{"camera", "--board", "9x1", "--square", "0.02", "--pictures", "a",

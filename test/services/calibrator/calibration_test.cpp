@@ -15,11 +15,13 @@ using ::testing::IsEmpty;
 constexpr double kBaseline_m = 0.12;
 const cv::Vec3d kTurn(0.01, 0.03, -0.015);
 
-View ViewOf(const Corners& corners) {
+/// As if a whole picture had been looked at; tilted, unless told otherwise.
+View ViewOf(const Corners& corners, double tilt_deg = 25.0) {
   View view;
   view.size = {640, 480};
   view.corners = corners;
   view.edge_width_px = 2.0;
+  view.tilt_right_deg = tilt_deg;
   return view;
 }
 
@@ -55,9 +57,9 @@ TEST_P(StereoBy, FindsWhereTheCamerasStand) {
   CalibrationOptions options;
   options.refinement = GetParam();
   const auto result = CalibrateStereo(rig.selection.shots(), rig.board.layout, options);
-  EXPECT_NEAR(cv::norm(result.fit.translation_m), kBaseline_m, 0.0005);
+  EXPECT_NEAR(cv::norm(result.fit.translation_m), kBaseline_m, 0.001);
   EXPECT_LT(result.fit.translation_m[0], 0.0);
-  EXPECT_NEAR(result.fit.rotation(0, 2), kTurn[1], 0.003);
+  EXPECT_NEAR(result.fit.rotation(0, 2), kTurn[1], 0.006);
   EXPECT_NEAR(result.fit.rotation(1, 0), kTurn[2], 0.003);
   EXPECT_LT(result.rows_px.median, 0.15);
   ASSERT_TRUE(result.held_out_rows_px);
@@ -122,19 +124,19 @@ TEST(Camera, TheSimplestModelThatServesIsChosen) {
   EXPECT_LT(*result.cross_validated_px, 0.2);
 }
 
-TEST(Camera, FlatViewsLeaveTheFocalLengthUncertain) {
+TEST(Camera, ABoardThatWasNeverTiltedIsNotEnough) {
   const Board board = MakeBoard({});
   ViewSelection selection({}, 1);
   cv::RNG random(2);
-  for (BoardPose pose : Poses(board.layout.size_m, 0.45, 10)) {
-    pose.rotation = {0.002, 0.001, 0};
-    pose.translation_m[2] = 0.45;
+  for (int i = 0; i < 10; ++i) {
+    // Parallel to the picture and always as far away.
+    const BoardPose pose{{0.002 * i, 0.001, 0}, {-0.22 + 0.02 * i, -0.15 + 0.015 * (i % 4), 0.6}};
     const auto corners = ProjectedCorners(WideLens(), board.layout, pose, 0.3, random);
-    selection.Offer("view", {}, {ViewOf(corners)});
+    selection.Offer("view", {}, {ViewOf(corners, 3.0)});
   }
   const auto result = CalibrateCamera(selection.shots(), 0, board.layout, {});
   EXPECT_THAT(FaultsOf(result, selection.coverage(0), "", {}),
-              Contains(HasSubstr("tilt the board")));
+              Contains(HasSubstr("tilted by 3 deg at most")));
 }
 
 TEST(Camera, OneCornerOfThePictureIsNotEnough) {

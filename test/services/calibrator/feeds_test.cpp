@@ -58,7 +58,9 @@ TEST_F(Feeds, FilesThatAreNotThereAreNamed) {
 TEST_F(Feeds, ListsOfDifferentLengthAreRefused) {
   const std::filesystem::path a = Write("a.png", Picture(1));
   const std::filesystem::path b = Write("b.png", Picture(2));
-  EXPECT_THAT(Message([&] { FileFeed({{a, b}, {a}}); }),
+  EXPECT_THAT(Message([&] {
+                FileFeed({{a, b}, {a}});
+              }),
               HasSubstr("--left names 2 pictures but --right 1"));
 }
 

@@ -1,8 +1,9 @@
+#include "services/calibrator/core/lens_fit.h"
+
 #include <gtest/gtest.h>
 
 #include <opencv2/calib3d.hpp>
 
-#include "services/calibrator/core/lens_fit.h"
 #include "test/services/calibrator/rendered_board.h"
 
 namespace deixis::calibrator::test {
@@ -50,8 +51,12 @@ TEST_P(LensFitOf, FindsTheLensThatTookTheViews) {
   const std::vector<cv::Point2f> pixels{{100, 80}, {320, 240}, {540, 400}, {120, 380}};
   const auto expected = Undistort(truth, pixels, cv::Matx33d::eye(), own);
   const auto found = Undistort(fit.lens, pixels, cv::Matx33d::eye(), own);
+  // Near the picture's middle it is certain, at its edge the fisheye's is less so.
+  const double tolerance_px = GetParam() == LensModel::kFisheye ? 4.0 : 1.5;
+  // A shift of them all is a camera that is turned by as much: it changes nothing in pictures.
+  const cv::Point2f shift = found[1] - expected[1];
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    EXPECT_LT(cv::norm(expected[i] - found[i]), 2.0) << pixels[i];
+    EXPECT_LT(cv::norm(expected[i] + shift - found[i]), tolerance_px) << pixels[i];
   }
 }
 
@@ -68,7 +73,7 @@ TEST_P(LensFitOf, SaysHowCertainItIs) {
 INSTANTIATE_TEST_SUITE_P(Models, LensFitOf,
                          ::testing::Values(LensModel::kPlumbBob, LensModel::kRational,
                                            LensModel::kFisheye),
-                         [](const auto& info) { return NameOf(info.param); });
+                         [](const auto& tested) { return NameOf(tested.param); });
 
 TEST(LensFit, OptionsHold) {
   const Board board = MakeBoard({});
@@ -111,8 +116,8 @@ TEST(LensFit, TwoViewsAreTooFew) {
 TEST(Lens, ReprojectionErrorIsZeroAtTheTruth) {
   const Board board = MakeBoard({});
   cv::RNG random(1);
-  const auto corners =
-      ProjectedCorners(WideLens(), board.layout, Poses(board.layout.size_m, 0.45, 1)[0], 0.0, random);
+  const auto corners = ProjectedCorners(WideLens(), board.layout,
+                                        Poses(board.layout.size_m, 0.45, 1)[0], 0.0, random);
   EXPECT_LT(ReprojectionError_px(WideLens(), board.layout, corners).value(), 0.01);
 }
 

@@ -29,10 +29,10 @@ Lens WideLens() {
 }
 
 std::vector<BoardPose> Poses(cv::Size2d size, double distance_m, int count) {
-  const std::vector<cv::Point2d> places{{0, 0},     {-1, -1},  {1, 1},     {1, -1},   {-1, 1},
+  const std::vector<cv::Point2d> places{{0, 0},     {-1, -1},  {1, 1},      {1, -1},  {-1, 1},
                                         {0.5, 0.3}, {-0.6, 0}, {0.2, -0.8}, {0, 0.9}, {0.9, 0}};
-  const std::vector<cv::Vec2d> tilts{{0.1, 0},   {0.5, 0.1},   {-0.5, 0.1}, {0.1, 0.5}, {0, -0.5},
-                                     {0.4, 0.4}, {-0.4, -0.3}, {0.3, -0.5}};
+  const std::vector<cv::Vec2d> tilts{{0.1, 0},  {0.5, 0.1}, {-0.5, 0.1},  {0.1, 0.5},
+                                     {0, -0.5}, {0.4, 0.4}, {-0.4, -0.3}, {0.3, -0.5}};
   std::vector<BoardPose> poses;
   for (int i = 0; i < count; ++i) {
     const auto number = static_cast<std::size_t>(i);

@@ -9,8 +9,8 @@ namespace deixis::calibrator::test {
 /// A 640x480 wide-angle lens with visible barrel distortion.
 Lens WideLens();
 
-/// Poses that turn the board every way and carry it all over the picture of WideLens(); `distance_m`
-/// suits a board of `size`.
+/// Poses that turn the board every way and carry it all over the picture of WideLens();
+/// `distance_m` suits a board of `size`.
 std::vector<BoardPose> Poses(cv::Size2d size, double distance_m, int count);
 
 /// The pose in a camera that stands `baseline_m` to the right of the first, turned by `turn`

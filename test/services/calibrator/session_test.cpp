@@ -66,9 +66,15 @@ class Session : public ::testing::Test {
 
   int Run(const Arguments& arguments) {
     std::ostringstream out;
-    const int code = calibrator::Run(arguments, [] { return false; }, out);
-    said_ = out.str();
-    return code;
+    try {
+      const int code = calibrator::Run(
+          arguments, [] { return false; }, out);
+      said_ = out.str();
+      return code;
+    } catch (...) {
+      said_ = out.str();
+      throw;
+    }
   }
   std::string Refusal(const Arguments& arguments) {
     try {
@@ -149,7 +155,8 @@ TEST_F(Session, ACharucoMayBePartlyOutOfView) {
   std::vector<cv::Mat> pictures;
   for (BoardPose pose : Poses(board.layout.size_m, 0.42, 14)) {
     // Half as far again from the middle: a chessboard would not be found in most of these.
-    pose.translation_m += 0.5 * cv::Vec3d(pose.translation_m[0] + 0.12, pose.translation_m[1] + 0.09, 0);
+    pose.translation_m +=
+        0.5 * cv::Vec3d(pose.translation_m[0] + 0.12, pose.translation_m[1] + 0.09, 0);
     pictures.push_back(camera.Take(pose));
   }
   Write("left", pictures);

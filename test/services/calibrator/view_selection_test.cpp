@@ -18,8 +18,8 @@ View ViewAt(cv::Point2f place, float spacing_px = 30.0F) {
   view.size = {640, 480};
   for (int i = 0; i < 12; ++i) {
     view.corners.ids.push_back(i);
-    view.corners.points_px.push_back(place + spacing_px * cv::Point2f(static_cast<float>(i % 4),
-                                                                      static_cast<float>(i / 4)));
+    view.corners.points_px.push_back(
+        place + spacing_px * cv::Point2f(static_cast<float>(i % 4), static_cast<float>(i / 4)));
   }
   view.edge_width_px = 2.0;
   view.extent = 0.25;
@@ -96,8 +96,9 @@ TEST(Coverage, HasNothingToAskWhenAllWasShown) {
   Coverage coverage;
   for (const double tilt_deg : {-20.0, 20.0}) {
     for (const float spacing_px : {40.0F, 160.0F}) {
-      for (const cv::Point2f place : {cv::Point2f(10, 10), cv::Point2f(310, 10), cv::Point2f(150, 10),
-                                      cv::Point2f(10, 300), cv::Point2f(310, 300)}) {
+      for (const cv::Point2f place :
+           {cv::Point2f(10, 10), cv::Point2f(310, 10), cv::Point2f(150, 10), cv::Point2f(10, 300),
+            cv::Point2f(310, 300)}) {
         View view = ViewAt(place, spacing_px);
         view.extent = spacing_px / 200.0;
         view.tilt_right_deg = tilt_deg;

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <opencv2/aruco/charuco.hpp>
+#include <set>
 #include <stdexcept>
 #include <utility>
+
+#include "services/calibrator/core/detectors/corner_refinement.h"
 
 namespace deixis::calibrator {
 namespace {
 namespace aruco = cv::aruco;
 
 constexpr std::size_t kFewestCorners = 6;
+constexpr double kWindowShare = 0.75;  // Half the side of a corner's window, of what is clear.
 
 const std::vector<std::pair<std::string, int>>& Dictionaries() {
   static const std::vector<std::pair<std::string, int>> kNames{
@@ -68,8 +72,40 @@ void AddMarker(const aruco::CharucoBoard& board, int id, cv::Point2d place, Boar
   }
 }
 
-// OpenCV's board has y up from the lower left corner of the paper, and markers where column and
-// row differ in parity.
+/// A point of OpenCV's board on the paper: up to 4.5 its y goes up from the lower left corner, from
+/// 4.6 on down from the upper left one.
+class Paper {
+ public:
+  explicit Paper(const aruco::CharucoBoard& board)
+      : is_upwards_(board.objPoints.front()[0].y > board.objPoints.front()[3].y),
+        height_m_(board.getSquareLength() * static_cast<float>(board.getChessboardSize().height)) {}
+
+  cv::Point3f operator()(const cv::Point3f& point) const {
+    return {point.x, is_upwards_ ? height_m_ - point.y : point.y, 0.0F};
+  }
+
+ private:
+  bool is_upwards_;
+  float height_m_;
+};
+
+/// Black squares are those without a marker.
+void AddSquares(const std::vector<cv::Point3f>& markers, const BoardConfig& config,
+                BoardLayout& layout) {
+  std::set<std::pair<int, int>> white;
+  for (const cv::Point3f& marker : markers) {
+    white.insert({static_cast<int>(marker.y / config.square_m),
+                  static_cast<int>(marker.x / config.square_m)});
+  }
+  for (int row = 0; row < config.count.height; ++row) {
+    for (int column = 0; column < config.count.width; ++column) {
+      if (white.count({row, column}) > 0) continue;
+      layout.black_m.emplace_back(column * config.square_m, row * config.square_m, config.square_m,
+                                  config.square_m);
+    }
+  }
+}
+
 BoardLayout LayoutOf(const BoardConfig& config, const aruco::CharucoBoard& board) {
   BoardLayout layout;
   layout.corners = {config.count.width - 1, config.count.height - 1};
@@ -77,20 +113,15 @@ BoardLayout LayoutOf(const BoardConfig& config, const aruco::CharucoBoard& board
   layout.has_certain_ids = true;
   layout.clear_m = 0.4 * (config.square_m - config.marker_m);
   layout.size_m = {config.count.width * config.square_m, config.count.height * config.square_m};
-  for (int row = 0; row < config.count.height; ++row) {
-    for (int column = row % 2; column < config.count.width; column += 2) {
-      layout.black_m.emplace_back(column * config.square_m,
-                                  layout.size_m.height - (row + 1) * config.square_m,
-                                  config.square_m, config.square_m);
-    }
-  }
-  for (std::size_t i = 0; i < board.ids.size(); ++i) {
-    const cv::Point3f top_left = board.objPoints[i][0];
-    AddMarker(board, board.ids[i], {top_left.x, layout.size_m.height - top_left.y}, layout);
+  const Paper on_paper(board);
+  std::vector<cv::Point3f> markers;
+  for (const auto& corners : board.objPoints) markers.push_back(on_paper(corners[0]));
+  AddSquares(markers, config, layout);
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    AddMarker(board, board.ids[i], {markers[i].x, markers[i].y}, layout);
   }
   for (const cv::Point3f& corner : board.chessboardCorners) {
-    layout.corners_m.emplace_back(corner.x, static_cast<float>(layout.size_m.height) - corner.y,
-                                  0.0F);
+    layout.corners_m.push_back(on_paper(corner));
   }
   return layout;
 }
@@ -110,7 +141,10 @@ Corners InOrder(const std::vector<int>& ids, const std::vector<cv::Point2f>& poi
 
 class CharucoDetector final : public CornerDetector {
  public:
-  explicit CharucoDetector(cv::Ptr<aruco::CharucoBoard> board) : board_(std::move(board)) {}
+  CharucoDetector(cv::Ptr<aruco::CharucoBoard> board, const BoardLayout& layout)
+      : board_(std::move(board)),
+        columns_(layout.corners.width),
+        window_share_(kWindowShare * layout.clear_m / layout.square_m) {}
 
   std::optional<Corners> Detect(const cv::Mat& grey) const override {
     std::vector<std::vector<cv::Point2f>> markers;
@@ -123,18 +157,25 @@ class CharucoDetector final : public CornerDetector {
     if (ids.size() < kFewestCorners || aruco::testCharucoCornersCollinear(board_, ids)) {
       return std::nullopt;
     }
-    return InOrder(ids, points);
+    // As they come, OpenCV 4.6's corners lie half a pixel too far right and down.
+    Corners corners = InOrder(ids, points);
+    RefineCorners(grey, columns_, window_share_, corners);
+    return corners;
   }
 
  private:
   cv::Ptr<aruco::CharucoBoard> board_;
+  int columns_;
+  double window_share_;  ///< Of the way to the next corner.
 };
 
 }  // namespace
 
 Board MakeCharuco(const BoardConfig& config) {
   const auto board = BoardOf(config);
-  return {LayoutOf(config, *board), std::make_unique<CharucoDetector>(board)};
+  BoardLayout layout = LayoutOf(config, *board);
+  auto detector = std::make_unique<CharucoDetector>(board, layout);
+  return {std::move(layout), std::move(detector)};
 }
 
 }  // namespace deixis::calibrator

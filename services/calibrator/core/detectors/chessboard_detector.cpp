@@ -2,7 +2,8 @@
 
 #include <numeric>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgproc.hpp>
+
+#include "services/calibrator/core/detectors/corner_refinement.h"
 
 namespace deixis::calibrator {
 namespace {
@@ -10,7 +11,6 @@ namespace {
 /// Share of a square's side over which an edge is free of other print.
 constexpr double kClearShare = 0.35;
 constexpr double kWindowShare = 0.3;  // Half the side of a corner's window, of the way to the next.
-constexpr int kLargestWindow_px = 15;
 
 BoardLayout LayoutOf(const BoardConfig& config) {
   BoardLayout layout;
@@ -34,22 +34,6 @@ BoardLayout LayoutOf(const BoardConfig& config) {
   return layout;
 }
 
-/// The shortest way from each corner to a neighbour in its row or column, pixels.
-std::vector<double> Spacings_px(const std::vector<cv::Point2f>& points, cv::Size count) {
-  std::vector<double> spacings(points.size(), 1e9);
-  const auto note = [&](std::size_t a, std::size_t b) {
-    const double way_px = cv::norm(points[a] - points[b]);
-    spacings[a] = std::min(spacings[a], way_px);
-    spacings[b] = std::min(spacings[b], way_px);
-  };
-  const auto columns = static_cast<std::size_t>(count.width);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (i % columns > 0) note(i, i - 1);
-    if (i >= columns) note(i, i - columns);
-  }
-  return spacings;
-}
-
 class ChessboardDetector final : public CornerDetector {
  public:
   explicit ChessboardDetector(cv::Size count) : count_(count) {}
@@ -59,25 +43,13 @@ class ChessboardDetector final : public CornerDetector {
     constexpr int kFlags =
         cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK;
     if (!cv::findChessboardCorners(grey, count_, corners.points_px, kFlags)) return std::nullopt;
-    Refine(grey, corners.points_px);
     corners.ids.resize(corners.points_px.size());
     std::iota(corners.ids.begin(), corners.ids.end(), 0);
+    RefineCorners(grey, count_.width, kWindowShare, corners);
     return corners;
   }
 
  private:
-  // Each corner in a window of its own: one that comes near the next corner is drawn to it.
-  void Refine(const cv::Mat& grey, std::vector<cv::Point2f>& points) const {
-    const std::vector<double> spacings_px = Spacings_px(points, count_);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const int half = std::clamp(cvRound(kWindowShare * spacings_px[i]), 2, kLargestWindow_px);
-      std::vector<cv::Point2f> corner{points[i]};
-      cv::cornerSubPix(grey, corner, {half, half}, {-1, -1},
-                       {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-3});
-      points[i] = corner.front();
-    }
-  }
-
   cv::Size count_;
 };
 
