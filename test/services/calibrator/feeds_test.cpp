@@ -5,6 +5,10 @@
 #include "common/config/config.h"
 #include "common/images/image.h"
 #include "common/messages/image.h"
+#if __has_include("common/messages/stereo_pair.h")
+#include "common/messages/stereo_pair.h"
+#define DEIXIS_HAS_STEREO_PAIR_MESSAGE
+#endif
 #include "services/calibrator/feeds/bus_feed.h"
 #include "services/calibrator/feeds/file_feed.h"
 #include "services/calibrator/feeds/source_feed.h"
@@ -126,6 +130,21 @@ TEST_F(Feeds, TheNewestPictureOfTheBusIsTaken) {
   EXPECT_EQ(sight->bgr[0].at<cv::Vec3b>(0, 0)[0], 20);
   EXPECT_EQ(feed.Next().state, capture::SourceState::kWaiting);
 }
+
+#ifdef DEIXIS_HAS_STEREO_PAIR_MESSAGE
+TEST_F(Feeds, PairsOfTheBusAreTaken) {
+  auto bus = std::make_unique<transport::Bus>(deixis::test::Memory());
+  transport::Bus& publisher = *bus;
+  BusFeed feed(std::move(bus), "STEREO_PAIR", 2);
+  publisher.Publish("STEREO_PAIR",
+                    images::StereoPair{{{5}, "left", Picture(10)}, {{5}, "right", Picture(20)}});
+  const auto sight = feed.Next().sight;
+  ASSERT_TRUE(sight);
+  ASSERT_EQ(sight->bgr.size(), 2u);
+  EXPECT_EQ(sight->bgr[0].at<cv::Vec3b>(0, 0)[0], 10);
+  EXPECT_EQ(sight->bgr[1].at<cv::Vec3b>(0, 0)[0], 20);
+}
+#endif
 
 }  // namespace
 }  // namespace deixis::calibrator::test

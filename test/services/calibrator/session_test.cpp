@@ -228,6 +228,30 @@ TEST_F(Session, CamerasOfDifferentSizeAreRefused) {
   EXPECT_THAT(Refusal(StereoArguments()), HasSubstr("differ in size"));
 }
 
+TEST_F(Session, InARecordingTheBoardMustBeHeldStill) {
+  std::vector<cv::Mat> pictures;
+  for (const cv::Mat& picture : Chessboard().left) pictures.insert(pictures.end(), 2, picture);
+  Write("left", pictures);
+  Arguments arguments = CameraArguments();
+  arguments.feed.left.clear();
+  arguments.feed.source = "folder:" + folder_.path().string();
+  arguments.selection.most_motion_px = -1.0;
+  arguments.most_views = 12;
+  ASSERT_EQ(Run(arguments), 0) << said_;
+  EXPECT_THAT(said_, HasSubstr("12 accepted, 12 moving"));
+}
+
+TEST_F(Session, WhoeverStopsItGetsWhatIsThere) {
+  Write("left", Chessboard().left);
+  std::ostringstream out;
+  int asked = 0;
+  EXPECT_EQ(calibrator::Run(
+                CameraArguments(), [&asked] { return ++asked > 4; }, out),
+            1);
+  EXPECT_THAT(out.str(), HasSubstr("4 accepted"));
+  EXPECT_THAT(out.str(), HasSubstr("4 views are too few"));
+}
+
 TEST_F(Session, WritesABoardToPrint) {
   Arguments arguments;
   arguments.task = Task::kPrintBoard;
