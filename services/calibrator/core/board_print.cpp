@@ -40,7 +40,7 @@ std::string PageContent(const BoardLayout& layout, const std::string& caption, c
             << (page.height - top - black.y - black.height) * kPointsPerMetre << ' '
             << black.width * kPointsPerMetre << ' ' << black.height * kPointsPerMetre << " re\n";
   }
-  content << "f\nBT /F1 8 Tf " << left * kPointsPerMetre << ' ' << kMargin_m * kPointsPerMetre
+  content << "f\nBT /F1 8 Tf " << kMargin_m * kPointsPerMetre << ' ' << kMargin_m * kPointsPerMetre
           << " Td (" << caption << ") Tj ET\n";
   return content.str();
 }
@@ -62,6 +62,15 @@ std::string PdfOf(const std::vector<std::string>& objects) {
   }
   return pdf + "trailer\n<< /Size " + count + " /Root 1 0 R >>\nstartxref\n" +
          std::to_string(table) + "\n%%EOF\n";
+}
+
+/// Below the board, as wide as the page allows.
+void WriteCaption(cv::Mat& page, const std::string& caption) {
+  constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+  const int width_px = cv::getTextSize(caption, kFont, 1.0, 2, nullptr).width;
+  const double scale = 0.94 * page.cols / width_px;
+  cv::putText(page, caption, {page.cols * 3 / 100, page.rows - page.cols / 80}, kFont, scale, 0, 2,
+              cv::LINE_AA);
 }
 
 /// CRC-32 as PNG has it.
@@ -142,8 +151,7 @@ std::string BoardPdf(const BoardLayout& layout, const std::string& caption) {
 
 std::vector<std::uint8_t> BoardPng(const BoardLayout& layout, const std::string& caption) {
   cv::Mat page = DrawBoard(layout, kPngDotsPerMetre);
-  cv::putText(page, caption, {page.cols / 50, page.rows - page.rows / 80}, cv::FONT_HERSHEY_SIMPLEX,
-              page.cols / 2200.0, 0, 2, cv::LINE_AA);
+  WriteCaption(page, caption);
   std::vector<std::uint8_t> png;
   cv::imencode(".png", page, png);
   constexpr std::ptrdiff_t kAfterHeader = 8 + 25;  // Signature and IHDR.

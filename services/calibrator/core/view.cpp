@@ -26,14 +26,12 @@ void JudgeTilt(View& view, const BoardLayout& layout) {
   if (!pose) return;
   cv::Matx33d rotation;
   cv::Rodrigues(pose->rotation, rotation);
-  // The board's normal, away from the camera; seen along the way to the board.
+  // The board's normal, away from the camera. Against the picture, not the way to the board: a
+  // board that is parallel to the picture tells nothing of the focal length wherever it is.
   cv::Vec3d normal(rotation(0, 2), rotation(1, 2), rotation(2, 2));
   if (normal[2] < 0.0) normal = -normal;
-  const cv::Vec3d& place = pose->translation_m;
-  view.tilt_right_deg =
-      -(std::atan2(normal[0], normal[2]) - std::atan2(place[0], place[2])) * kDegrees;
-  view.tilt_down_deg =
-      -(std::atan2(normal[1], normal[2]) - std::atan2(place[1], place[2])) * kDegrees;
+  view.tilt_right_deg = -std::atan2(normal[0], normal[2]) * kDegrees;
+  view.tilt_down_deg = -std::atan2(normal[1], normal[2]) * kDegrees;
 }
 
 }  // namespace

@@ -16,8 +16,9 @@ struct View {
   std::optional<double> edge_width_px;  ///< Blur; nothing = the squares are too small to tell.
   cv::Point2d centre;                   ///< Of the board seen; 0..1 across and down the picture.
   double extent = 0.0;                  ///< Root of the share of the picture that the board takes.
-  double tilt_right_deg = 0.0;          ///< Above 0: the board's right side is farther away. Rough.
-  double tilt_down_deg = 0.0;           ///< Above 0: its lower side is farther away. Rough.
+  double tilt_right_deg =
+      0.0;  ///< Against the picture; above 0: its right side is farther away. Rough.
+  double tilt_down_deg = 0.0;  ///< Above 0: its lower side is farther away. Rough.
 };
 
 /// One picture of each camera, taken together; one camera: one view.
