@@ -82,8 +82,8 @@ Take FileFeed::Next() {
 
 std::string FileFeed::trouble() const {
   if (unreadable_ == 0) return "";
-  return std::to_string(unreadable_) + " files are no pictures that can be read, the last one " +
-         last_unreadable_;
+  return "files that cannot be read as pictures: " + std::to_string(unreadable_) +
+         ", the last one " + last_unreadable_;
 }
 
 }  // namespace deixis::calibrator

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <sstream>
+
 namespace deixis::calibrator::test {
 namespace {
 
@@ -10,7 +13,7 @@ ParsedArguments Parse(std::vector<const char*> words) {
   return ParseArguments(static_cast<int>(words.size()), words.data());
 }
 
-TEST(Arguments, OfACamera) {
+TEST(CalibratorArguments, OfACamera) {
   const auto parsed = Parse({"camera", "--board", "8x5", "--square", "0.03", "--pictures", "a.png",
                              "--model", "rational", "--fix-aspect", "-o", "c.yml"});
   ASSERT_FALSE(parsed.exit_code);
@@ -22,7 +25,7 @@ TEST(Arguments, OfACamera) {
   EXPECT_EQ(arguments.permissions.existing, Existing::kKeep);
 }
 
-TEST(Arguments, OfAStereoPairWithACharuco) {
+TEST(CalibratorArguments, OfAStereoPairWithACharuco) {
   const auto parsed =
       Parse({"stereo", "--charuco", "7x5", "--square", "0.035", "--marker", "0.026", "--left",
              "l1.png", "l2.png", "--right", "r1.png", "r2.png", "-o", "folder", "--force"});
@@ -34,34 +37,30 @@ TEST(Arguments, OfAStereoPairWithACharuco) {
   EXPECT_TRUE(parsed.arguments.permissions.may_write_poor);
 }
 
-class WrongArguments : public ::testing::TestWithParam<std::vector<const char*>> {};
+class WrongCalibratorArguments : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(WrongArguments, EndWithTwo) { EXPECT_EQ(Parse(GetParam()).exit_code, 2); }
+TEST_P(WrongCalibratorArguments, EndWithTwo) {
+  std::istringstream line(GetParam());
+  const std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+  std::vector<const char*> pointers;
+  for (const std::string& word : words) pointers.push_back(word.c_str());
+  EXPECT_EQ(Parse(pointers).exit_code, 2);
+}
 
 INSTANTIATE_TEST_SUITE_P(
-    All, WrongArguments,
-    ::testing::Values(
-        std::vector<const char*>{}, std::vector<const char*>{"camera"},
-        std::vector<const char*>{"camera", "--board", "9", "--square", "0.02", "--pictures", "a",
-                                 "-o", "c"},
-        std::vector<const char*>{"camera", "--board", "9x1", "--square", "0.02", "--pictures", "a",
-                                 "-o", "c"},
-        std::vector<const char*>{"camera", "--board", "9x6", "--square", "25", "--pictures", "a",
-                                 "-o", "c"},
-        std::vector<const char*>{"camera", "--square", "0.02", "--pictures", "a", "-o", "c"},
-        std::vector<const char*>{"camera", "--board", "9x6", "--square", "0.02", "-o", "c"},
-        std::vector<const char*>{"camera", "--board", "9x6", "--square", "0.02", "--pictures", "a",
-                                 "--source", "device:0", "-o", "c"},
-        std::vector<const char*>{"stereo", "--board", "9x6", "--square", "0.02", "--left", "a",
-                                 "-o", "c"},
-        std::vector<const char*>{"stereo", "--board", "9x6", "--square", "0.02", "--source",
-                                 "device:0", "-o", "c"},
-        std::vector<const char*>{"camera", "--charuco", "7x5", "--square", "0.02", "--marker",
-                                 "0.03", "--pictures", "a", "-o", "c"},
-        std::vector<const char*>{"board", "--board", "9x6", "--square", "0.02", "--print",
-                                 "b.doc"}));
+    All, WrongCalibratorArguments,
+    ::testing::Values("", "camera", "camera --board 9 --square 0.02 --pictures a -o c",
+                      "camera --board 9x1 --square 0.02 --pictures a -o c",
+                      "camera --board 9x6 --square 25 --pictures a -o c",
+                      "camera --square 0.02 --pictures a -o c",
+                      "camera --board 9x6 --square 0.02 -o c",
+                      "camera --board 9x6 --square 0.02 --pictures a --source device:0 -o c",
+                      "stereo --board 9x6 --square 0.02 --left a -o c",
+                      "stereo --board 9x6 --square 0.02 --source device:0 -o c",
+                      "camera --charuco 7x5 --square 0.02 --marker 0.03 --pictures a -o c",
+                      "board --board 9x6 --square 0.02 --print b.doc"));
 
-TEST(Arguments, HelpEndsWithZero) { EXPECT_EQ(Parse({"stereo", "--help"}).exit_code, 0); }
+TEST(CalibratorArguments, HelpEndsWithZero) { EXPECT_EQ(Parse({"stereo", "--help"}).exit_code, 0); }
 
 }  // namespace
 }  // namespace deixis::calibrator::test

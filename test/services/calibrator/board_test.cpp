@@ -41,7 +41,7 @@ double LargestError_px(const Lens& lens, const Board& board, const Corners& corn
   return largest;
 }
 
-TEST(Board, EveryCornerOfAChessboardIsWhereItWasPrinted) {
+TEST(CalibrationBoard, EveryCornerOfAChessboardIsWhereItWasPrinted) {
   const Board board = MakeBoard({});
   const BoardCamera camera(WideLens(), board.layout);
   const BoardPose pose = Poses(board.layout.size_m, 0.45, 4)[3];
@@ -70,7 +70,7 @@ TEST_P(CharucoOfSize, HasItsCornersWhereTheyWerePrinted) {
 INSTANTIATE_TEST_SUITE_P(OddAndEvenRows, CharucoOfSize,
                          ::testing::Values(cv::Size(7, 5), cv::Size(7, 6), cv::Size(6, 5)));
 
-TEST(Board, ACharucoThatIsPartlyOutOfViewKeepsTheCornersThatAreIn) {
+TEST(CalibrationBoard, ACharucoThatIsPartlyOutOfViewKeepsTheCornersThatAreIn) {
   const Board board = MakeBoard(Charuco({7, 5}));
   const BoardCamera camera(WideLens(), board.layout);
   BoardPose pose = Poses(board.layout.size_m, 0.4, 1)[0];
@@ -81,13 +81,13 @@ TEST(Board, ACharucoThatIsPartlyOutOfViewKeepsTheCornersThatAreIn) {
   EXPECT_LT(LargestError_px(WideLens(), board, view->corners, pose), 0.5);
 }
 
-TEST(Board, AGreyPictureHoldsNone) {
+TEST(CalibrationBoard, AGreyPictureHoldsNone) {
   const cv::Mat grey(480, 640, CV_8UC1, cv::Scalar(110));
   EXPECT_FALSE(Look(grey, MakeBoard({})));
   EXPECT_FALSE(Look(grey, MakeBoard(Charuco({7, 5}))));
 }
 
-TEST(Board, BlurWidensEdges) {
+TEST(CalibrationBoard, BlurWidensEdges) {
   const Board board = MakeBoard({});
   const BoardCamera camera(WideLens(), board.layout);
   const cv::Mat sharp = Grey(camera.Take(Poses(board.layout.size_m, 0.45, 1)[0]));
@@ -110,7 +110,7 @@ cv::Vec2d TiltsOf(const cv::Vec3d& rotation) {
   return {view->tilt_right_deg, view->tilt_down_deg};
 }
 
-TEST(Board, TiltsAreToldApart) {
+TEST(CalibrationBoard, TiltsAreToldApart) {
   // Turned by -0.5 about y: the right side goes away from a camera that looks along z.
   const cv::Vec2d right = TiltsOf({0, -0.5, 0});
   EXPECT_NEAR(right[0], 28.6, 6.0);
@@ -120,7 +120,7 @@ TEST(Board, TiltsAreToldApart) {
   EXPECT_NEAR(lower[1], 28.6, 6.0);
 }
 
-TEST(Board, RefusesWhatIsNone) {
+TEST(CalibrationBoard, RefusesWhatIsNone) {
   BoardConfig line;
   line.count = {9, 1};
   EXPECT_THROW(MakeBoard(line), std::invalid_argument);

@@ -49,9 +49,9 @@ void Show(Rig& rig, int count, double sigma_px = 0.1) {
   }
 }
 
-class StereoBy : public ::testing::TestWithParam<Refinement> {};
+class StereoCalibrationBy : public ::testing::TestWithParam<Refinement> {};
 
-TEST_P(StereoBy, FindsWhereTheCamerasStand) {
+TEST_P(StereoCalibrationBy, FindsWhereTheCamerasStand) {
   Rig rig;
   Show(rig, 16);
   CalibrationOptions options;
@@ -68,10 +68,10 @@ TEST_P(StereoBy, FindsWhereTheCamerasStand) {
   EXPECT_THAT(FaultsOf(result, rig.selection, {}), IsEmpty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Refinements, StereoBy,
+INSTANTIATE_TEST_SUITE_P(Refinements, StereoCalibrationBy,
                          ::testing::Values(Refinement::kJoint, Refinement::kPlacesOnly));
 
-TEST(Stereo, WithoutNoiseRowsAgreeAndSquaresHaveTheirSize) {
+TEST(StereoCalibration, WithoutNoiseRowsAgreeAndSquaresHaveTheirSize) {
   Rig rig;
   Show(rig, 8, 0.0);
   const auto result = CalibrateStereo(rig.selection.shots(), rig.board.layout, {});
@@ -79,7 +79,7 @@ TEST(Stereo, WithoutNoiseRowsAgreeAndSquaresHaveTheirSize) {
   EXPECT_LT(result.square_errors.p95, 0.001);
 }
 
-TEST(Stereo, ABoardCountedFromTheOtherEndIsPairedAllTheSame) {
+TEST(StereoCalibration, ABoardCountedFromTheOtherEndIsPairedAllTheSame) {
   const Board board = MakeBoard({});
   cv::RNG random(1);
   const BoardPose pose = Poses(board.layout.size_m, 0.55, 1)[0];
@@ -91,7 +91,7 @@ TEST(Stereo, ABoardCountedFromTheOtherEndIsPairedAllTheSame) {
   EXPECT_EQ(pair.second.points_px.front(), right.points_px.front());
 }
 
-TEST(Stereo, LeavesOutAPairThatWasNotTakenAtOneMoment) {
+TEST(StereoCalibration, LeavesOutAPairThatWasNotTakenAtOneMoment) {
   Rig rig;
   Show(rig, 12);
   std::vector<Shot> shots = rig.selection.shots();
@@ -102,7 +102,7 @@ TEST(Stereo, LeavesOutAPairThatWasNotTakenAtOneMoment) {
   EXPECT_LT(result.rows_px.median, 0.2);
 }
 
-TEST(Stereo, SwappedCamerasAreToldOf) {
+TEST(StereoCalibration, SwappedCamerasAreToldOf) {
   Rig rig;
   Show(rig, 12);
   ViewSelection swapped({}, 2);
@@ -113,7 +113,7 @@ TEST(Stereo, SwappedCamerasAreToldOf) {
   EXPECT_THAT(FaultsOf(result, swapped, {}), Contains(HasSubstr("left and right are swapped")));
 }
 
-TEST(Camera, TheSimplestModelThatServesIsChosen) {
+TEST(CameraCalibration, TheSimplestModelThatServesIsChosen) {
   Rig rig;
   Show(rig, 14);
   CalibrationOptions options;
@@ -124,7 +124,7 @@ TEST(Camera, TheSimplestModelThatServesIsChosen) {
   EXPECT_LT(*result.cross_validated_px, 0.2);
 }
 
-TEST(Camera, ABoardThatWasNeverTiltedIsNotEnough) {
+TEST(CameraCalibration, ABoardThatWasNeverTiltedIsNotEnough) {
   const Board board = MakeBoard({});
   ViewSelection selection({}, 1);
   cv::RNG random(2);
@@ -139,7 +139,7 @@ TEST(Camera, ABoardThatWasNeverTiltedIsNotEnough) {
               Contains(HasSubstr("tilted by 3 deg at most")));
 }
 
-TEST(Camera, OneCornerOfThePictureIsNotEnough) {
+TEST(CameraCalibration, OneCornerOfThePictureIsNotEnough) {
   Rig rig;
   Show(rig, 10);
   Coverage little;
@@ -148,7 +148,7 @@ TEST(Camera, OneCornerOfThePictureIsNotEnough) {
   EXPECT_THAT(FaultsOf(result, little, "", {}), Contains(HasSubstr("covered")));
 }
 
-TEST(Camera, ALargeErrorIsRefused) {
+TEST(CameraCalibration, ALargeErrorIsRefused) {
   Rig rig;
   Show(rig, 12, 1.5);
   const auto result = CalibrateCamera(rig.selection.shots(), 0, rig.board.layout, {});

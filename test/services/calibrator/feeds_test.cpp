@@ -33,7 +33,7 @@ std::string Message(const std::function<void()>& call) {
   return "nothing was thrown";
 }
 
-class Feeds : public ::testing::Test {
+class CalibratorFeeds : public ::testing::Test {
  protected:
   std::string Write(const std::string& name, const cv::Mat& picture) const {
     const std::string path = (folder_.path() / name).string();
@@ -45,7 +45,7 @@ class Feeds : public ::testing::Test {
   deixis::test::TemporaryFolder folder_;
 };
 
-TEST_F(Feeds, FilesComeAsPeopleCount) {
+TEST_F(CalibratorFeeds, FilesComeAsPeopleCount) {
   for (const char* name : {"left10.png", "left2.png", "left1.png"}) Write(name, Picture(9));
   const auto files = FilesOf({Path("left*.png")}, "--left");
   ASSERT_EQ(files.size(), 3u);
@@ -53,13 +53,13 @@ TEST_F(Feeds, FilesComeAsPeopleCount) {
   EXPECT_EQ(files[2].filename(), "left10.png");
 }
 
-TEST_F(Feeds, FilesThatAreNotThereAreNamed) {
+TEST_F(CalibratorFeeds, FilesThatAreNotThereAreNamed) {
   EXPECT_THAT(Message([&] { FilesOf({Path("none*.png")}, "--left"); }), HasSubstr("--left"));
   EXPECT_THAT(Message([&] { FilesOf({folder_.path().string()}, "--left"); }),
               HasSubstr("is a folder"));
 }
 
-TEST_F(Feeds, ListsOfDifferentLengthAreRefused) {
+TEST_F(CalibratorFeeds, ListsOfDifferentLengthAreRefused) {
   const std::filesystem::path a = Write("a.png", Picture(1));
   const std::filesystem::path b = Write("b.png", Picture(2));
   EXPECT_THAT(Message([&] {
@@ -68,7 +68,7 @@ TEST_F(Feeds, ListsOfDifferentLengthAreRefused) {
               HasSubstr("--left names 2 pictures but --right 1"));
 }
 
-TEST_F(Feeds, AFileThatIsNoPictureIsCountedAndNamed) {
+TEST_F(CalibratorFeeds, AFileThatIsNoPictureIsCountedAndNamed) {
   folder_.Write("broken.png", "no picture");
   FileFeed feed({{Path("broken.png"), Write("good.png", Picture(9))}});
   EXPECT_TRUE(feed.Next().sight->bgr[0].empty());
@@ -77,7 +77,7 @@ TEST_F(Feeds, AFileThatIsNoPictureIsCountedAndNamed) {
   EXPECT_THAT(feed.trouble(), HasSubstr("broken.png"));
 }
 
-TEST_F(Feeds, APictureOfTwoCamerasIsCutInTwo) {
+TEST_F(CalibratorFeeds, APictureOfTwoCamerasIsCutInTwo) {
   cv::Mat both;
   cv::hconcat(Picture(50), Picture(200), both);
   Write("pair1.png", both);
@@ -93,7 +93,7 @@ TEST_F(Feeds, APictureOfTwoCamerasIsCutInTwo) {
   EXPECT_EQ(sight->bgr[1].at<cv::Vec3b>(0, 0)[0], 200);
 }
 
-TEST_F(Feeds, TwoRecordingsGoTogetherPictureByPicture) {
+TEST_F(CalibratorFeeds, TwoRecordingsGoTogetherPictureByPicture) {
   for (const char* side : {"left", "right"}) {
     std::filesystem::create_directories(folder_.path() / side);
     for (int i = 0; i < 2; ++i) {
@@ -113,11 +113,11 @@ TEST_F(Feeds, TwoRecordingsGoTogetherPictureByPicture) {
   EXPECT_EQ(feed.Next().state, capture::SourceState::kFinished);
 }
 
-TEST_F(Feeds, ASourceOfNoKnownKindIsRefused) {
+TEST_F(CalibratorFeeds, ASourceOfNoKnownKindIsRefused) {
   EXPECT_THAT(Message([] { ParseSource("walk.mp4", "--source"); }), HasSubstr("device:"));
 }
 
-TEST_F(Feeds, TheNewestPictureOfTheBusIsTaken) {
+TEST_F(CalibratorFeeds, TheNewestPictureOfTheBusIsTaken) {
   auto bus = std::make_unique<transport::Bus>(deixis::test::Memory());
   transport::Bus& publisher = *bus;
   BusFeed feed(std::move(bus), "CAMERA", 1);
@@ -132,7 +132,7 @@ TEST_F(Feeds, TheNewestPictureOfTheBusIsTaken) {
 }
 
 #ifdef DEIXIS_HAS_STEREO_PAIR_MESSAGE
-TEST_F(Feeds, PairsOfTheBusAreTaken) {
+TEST_F(CalibratorFeeds, PairsOfTheBusAreTaken) {
   auto bus = std::make_unique<transport::Bus>(deixis::test::Memory());
   transport::Bus& publisher = *bus;
   BusFeed feed(std::move(bus), "STEREO_PAIR", 2);

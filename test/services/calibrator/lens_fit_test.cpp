@@ -113,7 +113,7 @@ TEST(LensFit, TwoViewsAreTooFew) {
                FitFailed);
 }
 
-TEST(Lens, ReprojectionErrorIsZeroAtTheTruth) {
+TEST(CalibratedLens, ReprojectionErrorIsZeroAtTheTruth) {
   const Board board = MakeBoard({});
   cv::RNG random(1);
   const auto corners = ProjectedCorners(WideLens(), board.layout,
@@ -121,7 +121,7 @@ TEST(Lens, ReprojectionErrorIsZeroAtTheTruth) {
   EXPECT_LT(ReprojectionError_px(WideLens(), board.layout, corners).value(), 0.01);
 }
 
-TEST(Lens, KnowsWhenItFoldsThePictureOver) {
+TEST(CalibratedLens, KnowsWhenItFoldsThePictureOver) {
   EXPECT_TRUE(IsMonotonic(WideLens()));
   Lens folding = WideLens();
   folding.distortion = {-0.9, 0, 0, 0, 0};

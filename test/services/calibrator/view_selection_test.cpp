@@ -79,7 +79,7 @@ TEST(ViewSelection, RefusesAnotherSize) {
   EXPECT_EQ(Offer(selection, other), Fate::kOtherSize);
 }
 
-TEST(Coverage, SaysWhatIsMissing) {
+TEST(BoardCoverage, SaysWhatIsMissing) {
   Coverage coverage;
   EXPECT_THAT(coverage.Advice(), Contains("show the board"));
   View view = ViewAt({20, 20});
@@ -92,7 +92,7 @@ TEST(Coverage, SaysWhatIsMissing) {
   EXPECT_THAT(advice, Not(Contains(HasSubstr("its right side away"))));
 }
 
-TEST(Coverage, HasNothingToAskWhenAllWasShown) {
+TEST(BoardCoverage, HasNothingToAskWhenAllWasShown) {
   Coverage coverage;
   for (const double tilt_deg : {-20.0, 20.0}) {
     for (const float spacing_px : {40.0F, 160.0F}) {
