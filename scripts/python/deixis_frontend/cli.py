@@ -44,6 +44,7 @@ COMMANDS: dict[str, Command] = {
     "export": Command(f"{_PACKAGE}.export", "turn a log into an MCAP file, for Foxglove"),
     "install-units": Command(f"{_PACKAGE}.install_units", "start with the machine, by systemd"),
     "procman": Command(f"{_PACKAGE}.procman", "write the services as a procman sheriff reads them"),
+    "calibrate": Command(f"{_PACKAGE}.calibrate", "lenses and stereo from pictures of a board"),
     "evaluate": Command(f"{_PACKAGE}.evaluate", "measure results against recordings with truth"),
     "train-gestures": Command("deixis_frontend.training.gestures", "learn gesture models"),
     "train-hands": Command("deixis_frontend.training.hands", "learn what hands look like"),

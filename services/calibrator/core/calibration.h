@@ -1,0 +1,56 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/calibrator/core/stereo_fit.h"
+#include "services/calibrator/core/view.h"
+
+namespace deixis::calibrator {
+
+enum class ModelChoice {
+  kAsGiven,
+  kByCrossValidation  ///< The simplest one whose error on views left out is within 2 % of the best.
+};
+
+struct CalibrationOptions {
+  LensOptions lens;
+  ModelChoice choice = ModelChoice::kAsGiven;
+  Refinement refinement = Refinement::kJoint;
+  double alpha = 0.0;  ///< Of the rectification: 0 = only pixels that both have, 1 = all of them.
+};
+
+/// One camera's calibration, and how it came about.
+struct CameraCalibration {
+  LensOptions options;  ///< As used.
+  RobustLensFit robust;
+  std::optional<double> cross_validated_px;  ///< Error on views that had no part in the fit.
+};
+
+/// `shots` by their `camera`. Throws FitFailed.
+CameraCalibration CalibrateCamera(const std::vector<Shot>& shots, std::size_t camera,
+                                  const BoardLayout& layout, const CalibrationOptions& options);
+
+struct PairError {
+  std::size_t shot = 0;
+  double rows_px = 0.0;  ///< Median absolute row difference.
+};
+
+struct StereoCalibration {
+  CameraCalibration left;
+  CameraCalibration right;
+  StereoFit fit;
+  std::vector<std::size_t> used;     ///< Shots of the fit.
+  std::vector<DroppedView> dropped;  ///< Shots that do not go with the others; row differences.
+  std::vector<PairError> pairs;      ///< Of the shots in the fit.
+  ErrorSummary rows_px;              ///< Row differences of the shots in the fit.
+  std::optional<ErrorSummary> held_out_rows_px;  ///< Of shots that had no part in it, five groups.
+  ErrorSummary square_errors;                    ///< Of distances between neighbours, relative.
+  double median_square = 1.0;                    ///< Measured over true; 1 = the scale is right.
+};
+
+/// Throws FitFailed.
+StereoCalibration CalibrateStereo(const std::vector<Shot>& shots, const BoardLayout& layout,
+                                  const CalibrationOptions& options);
+
+}  // namespace deixis::calibrator

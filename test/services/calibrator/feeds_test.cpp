@@ -1,0 +1,145 @@
+#include <gmock/gmock.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/config/config.h"
+#include "common/images/image.h"
+#include "common/messages/image.h"
+#include "common/messages/stereo_pair.h"
+#include "services/calibrator/feeds/bus_feed.h"
+#include "services/calibrator/feeds/file_feed.h"
+#include "services/calibrator/feeds/source_feed.h"
+#include "test/support/memory_bus.h"
+#include "test/support/temporary_folder.h"
+
+namespace deixis::calibrator::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+cv::Mat Picture(int value, cv::Size size = {64, 48}) {
+  return {size, CV_8UC3, cv::Scalar::all(value)};
+}
+
+std::string Message(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+class CalibratorFeeds : public ::testing::Test {
+ protected:
+  std::string Write(const std::string& name, const cv::Mat& picture) const {
+    const std::string path = (folder_.path() / name).string();
+    cv::imwrite(path, picture);
+    return path;
+  }
+  std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  deixis::test::TemporaryFolder folder_;
+};
+
+TEST_F(CalibratorFeeds, FilesComeAsPeopleCount) {
+  for (const char* name : {"left10.png", "left2.png", "left1.png"}) Write(name, Picture(9));
+  const auto files = FilesOf({Path("left*.png")}, "--left");
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_EQ(files[1].filename(), "left2.png");
+  EXPECT_EQ(files[2].filename(), "left10.png");
+}
+
+TEST_F(CalibratorFeeds, FilesThatAreNotThereAreNamed) {
+  EXPECT_THAT(Message([&] { FilesOf({Path("none*.png")}, "--left"); }), HasSubstr("--left"));
+  EXPECT_THAT(Message([&] { FilesOf({folder_.path().string()}, "--left"); }),
+              HasSubstr("is a folder"));
+}
+
+TEST_F(CalibratorFeeds, ListsOfDifferentLengthAreRefused) {
+  const std::filesystem::path a = Write("a.png", Picture(1));
+  const std::filesystem::path b = Write("b.png", Picture(2));
+  EXPECT_THAT(Message([&] {
+                FileFeed({{a, b}, {a}});
+              }),
+              HasSubstr("--left names 2 pictures but --right 1"));
+}
+
+TEST_F(CalibratorFeeds, AFileThatIsNoPictureIsCountedAndNamed) {
+  folder_.Write("broken.png", "no picture");
+  FileFeed feed({{Path("broken.png"), Write("good.png", Picture(9))}});
+  EXPECT_TRUE(feed.Next().sight->bgr[0].empty());
+  EXPECT_FALSE(feed.Next().sight->bgr[0].empty());
+  EXPECT_EQ(feed.Next().state, capture::SourceState::kFinished);
+  EXPECT_THAT(feed.trouble(), HasSubstr("broken.png"));
+}
+
+TEST_F(CalibratorFeeds, APictureOfTwoCamerasIsCutInTwo) {
+  cv::Mat both;
+  cv::hconcat(Picture(50), Picture(200), both);
+  Write("pair1.png", both);
+  auto config = ParseSource("folder:" + folder_.path().string(), "--source");
+  config.rate_hz = 1.0;
+  SourceFeed feed(OpenSource(config), PictureLayout::kSideBySide);
+  EXPECT_EQ(feed.kind(), FeedKind::kRecording);
+  const auto sight = feed.Next().sight;
+  ASSERT_TRUE(sight);
+  ASSERT_EQ(sight->bgr.size(), 2u);
+  EXPECT_EQ(sight->bgr[0].size(), cv::Size(64, 48));
+  EXPECT_EQ(sight->bgr[0].at<cv::Vec3b>(0, 0)[0], 50);
+  EXPECT_EQ(sight->bgr[1].at<cv::Vec3b>(0, 0)[0], 200);
+}
+
+TEST_F(CalibratorFeeds, TwoRecordingsGoTogetherPictureByPicture) {
+  for (const char* side : {"left", "right"}) {
+    std::filesystem::create_directories(folder_.path() / side);
+    for (int i = 0; i < 2; ++i) {
+      Write(std::string(side) + "/" + std::to_string(i) + ".png",
+            Picture(10 * i + (side[0] == 'r' ? 100 : 0)));
+    }
+  }
+  auto left = ParseSource("folder:" + Path("left"), "--source");
+  auto right = ParseSource("folder:" + Path("right"), "--right-source");
+  left.rate_hz = right.rate_hz = 1.0;
+  TwoSourceFeed feed(OpenSource(left), OpenSource(right));
+  feed.Next();
+  const auto sight = feed.Next().sight;
+  ASSERT_TRUE(sight);
+  EXPECT_EQ(sight->bgr[0].at<cv::Vec3b>(0, 0)[0], 10);
+  EXPECT_EQ(sight->bgr[1].at<cv::Vec3b>(0, 0)[0], 110);
+  EXPECT_EQ(feed.Next().state, capture::SourceState::kFinished);
+}
+
+TEST_F(CalibratorFeeds, ASourceOfNoKnownKindIsRefused) {
+  EXPECT_THAT(Message([] { ParseSource("walk.mp4", "--source"); }), HasSubstr("device:"));
+}
+
+TEST_F(CalibratorFeeds, TheNewestPictureOfTheBusIsTaken) {
+  auto bus = std::make_unique<transport::Bus>(deixis::test::Memory());
+  transport::Bus& publisher = *bus;
+  BusFeed feed(std::move(bus), "CAMERA", 1);
+  EXPECT_THAT(feed.trouble(), HasSubstr("CAMERA"));
+  publisher.Publish("CAMERA", images::Image{{1}, "camera", Picture(10)});
+  publisher.Publish("CAMERA", images::Image{{2}, "camera", Picture(20)});
+  const auto sight = feed.Next().sight;
+  ASSERT_TRUE(sight);
+  EXPECT_EQ(sight->time.microseconds, 2);
+  EXPECT_EQ(sight->bgr[0].at<cv::Vec3b>(0, 0)[0], 20);
+  EXPECT_EQ(feed.Next().state, capture::SourceState::kWaiting);
+}
+
+TEST_F(CalibratorFeeds, PairsOfTheBusAreTaken) {
+  auto bus = std::make_unique<transport::Bus>(deixis::test::Memory());
+  transport::Bus& publisher = *bus;
+  BusFeed feed(std::move(bus), "STEREO_PAIR", 2);
+  publisher.Publish("STEREO_PAIR",
+                    images::StereoPair{{{5}, "left", Picture(10)}, {{5}, "right", Picture(20)}});
+  const auto sight = feed.Next().sight;
+  ASSERT_TRUE(sight);
+  ASSERT_EQ(sight->bgr.size(), 2u);
+  EXPECT_EQ(sight->bgr[0].at<cv::Vec3b>(0, 0)[0], 10);
+  EXPECT_EQ(sight->bgr[1].at<cv::Vec3b>(0, 0)[0], 20);
+}
+
+}  // namespace
+}  // namespace deixis::calibrator::test
