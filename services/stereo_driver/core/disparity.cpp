@@ -12,13 +12,18 @@ constexpr int kSearchStep = 16;  // OpenCV takes multiples of this.
 constexpr int kDefaultSgbmBlock_px = 7;
 constexpr int kDefaultBmBlock_px = 15;
 
+/// OpenCV's StereoSGBM takes -1 for 1: only a difference that cannot be turns its check off.
+int LargestDifference(const DisparityConfig& config, int num_disparities) {
+  return config.left_right_px >= 0 ? config.left_right_px : num_disparities;
+}
+
 cv::Ptr<cv::StereoMatcher> MakeSgbm(const DisparityConfig& config, int num_disparities) {
   const int block_px = config.block_px > 0 ? config.block_px : kDefaultSgbmBlock_px;
   const int area = block_px * block_px;
   return cv::StereoSGBM::create(
       0, num_disparities, block_px, config.smoothness_small * area, config.smoothness_large * area,
-      config.left_right_px, config.prefilter_cap, config.uniqueness_percent, config.speckle_area_px,
-      config.speckle_range_px, cv::StereoSGBM::MODE_SGBM_3WAY);
+      LargestDifference(config, num_disparities), config.prefilter_cap, config.uniqueness_percent,
+      config.speckle_area_px, config.speckle_range_px, cv::StereoSGBM::MODE_SGBM_3WAY);
 }
 
 cv::Ptr<cv::StereoMatcher> MakeBm(const DisparityConfig& config, int num_disparities) {
@@ -27,7 +32,7 @@ cv::Ptr<cv::StereoMatcher> MakeBm(const DisparityConfig& config, int num_dispari
   matcher->setPreFilterCap(config.prefilter_cap);
   matcher->setTextureThreshold(config.texture_threshold);
   matcher->setUniquenessRatio(config.uniqueness_percent);
-  matcher->setDisp12MaxDiff(config.left_right_px);
+  matcher->setDisp12MaxDiff(LargestDifference(config, num_disparities));
   matcher->setSpeckleWindowSize(config.speckle_area_px);
   matcher->setSpeckleRange(config.speckle_range_px);
   return matcher;

@@ -12,7 +12,7 @@ namespace deixis::stereo_driver {
 /// How pixels of the two pictures are matched.
 enum class Method {
   kSgbm3way,  ///< cv::StereoSGBM, MODE_SGBM_3WAY: dense, also on clothes of one colour.
-  kBm         ///< cv::StereoBM: four times as fast, leaves out what has no texture.
+  kBm         ///< cv::StereoBM: faster, leaves out what has no texture.
 };
 inline auto EnumNames(Method) {
   return std::vector<std::pair<std::string, Method>>{{"sgbm_3way", Method::kSgbm3way},

@@ -6,8 +6,8 @@
 namespace deixis::stereo_driver {
 
 struct RefinementConfig {
-  int iterations = 2;      ///< Rounds of alignment and smoothing; 0 = as the matcher gave them.
-  int window_px = 19;      ///< Side of the blurred window that is aligned, odd.
+  int iterations = 3;      ///< Rounds of alignment and smoothing; 0 = as the matcher gave them.
+  int window_px = 15;      ///< Side of the blurred window that is aligned, odd.
   int smoothing_px = 7;    ///< Side of the window that agreeing neighbours are averaged in, odd.
   double agree_px = 0.75;  ///< Neighbours within this belong to the same surface.
 

@@ -14,7 +14,7 @@ namespace deixis::stereo_driver {
 enum class Rectification {
   kComputed,  ///< From M, D, R, T with the `alpha` here: OpenCV's sample writes its R1 R2 P1 P2
               ///< with alpha 1, which leaves black borders and wastes resolution.
-  kFromFile  ///< R1 R2 P1 P2 as they stand in the file.
+  kFromFile   ///< R1 R2 P1 P2 as they stand in the file.
 };
 inline auto EnumNames(Rectification) {
   return std::vector<std::pair<std::string, Rectification>>{
@@ -34,7 +34,7 @@ struct RigCalibrationConfig {
   int height_px = 0;  ///< Goes with width_px.
   Rectification rectification = Rectification::kComputed;
   double alpha = 0.0;  ///< `computed`: 0 = only pixels that both cameras' pictures have, 1 = all.
-  double disparity_sigma_px = 0.25;  ///< Error of a disparity at full width, as it is published.
+  double disparity_sigma_px = 0.2;  ///< Error of a disparity at full width, as it is published.
 
   template <typename Visitor>
   void Visit(Visitor& v) {

@@ -21,10 +21,11 @@ inline auto EnumNames(Size) {
 }
 
 struct StereoMatcherConfig {
-  Size match_size = Size::kFull;  ///< Half: about five times as fast, errors nearly twice as large.
+  Size match_size = Size::kFull;  ///< Half: four times as fast, errors half as large again.
   Size depth_size = Size::kHalf;  ///< Of the published depth; not larger than match_size.
-  double nearest_m = 0.6;         ///< Nearer things have no depth; halving it doubles the work.
-  double farthest_m = 10.0;       ///< Farther things have no depth.
+  double nearest_m =
+      0.6;  ///< Nearer things have no depth; halving it costs half as much time again.
+  double farthest_m = 10.0;  ///< Farther things have no depth.
   DisparityConfig disparity;
   RefinementConfig refinement;
 

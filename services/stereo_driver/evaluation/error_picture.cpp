@@ -38,10 +38,10 @@ void WriteErrorPicture(const std::filesystem::path& folder, const std::string& n
                        const RectifiedDepth& result, const cv::Mat& errors_m) {
   const std::string path = (folder / ("depth_" + name + ".png")).string();
   cv::Mat picture;
-  cv::hconcat(std::vector<cv::Mat>{result.left_bgr,
-                                   ColoursOf(result.depth_mm, result.left_bgr.size()),
-                                   ColoursOfErrors(errors_m)},
-              picture);
+  cv::hconcat(
+      std::vector<cv::Mat>{result.left_bgr, ColoursOf(result.depth_mm, result.left_bgr.size()),
+                           ColoursOfErrors(errors_m)},
+      picture);
   std::filesystem::create_directories(folder);
   if (!cv::imwrite(path, picture)) {
     throw config::ConfigError(path + ": cannot be written; give another --pictures folder");

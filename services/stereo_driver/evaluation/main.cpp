@@ -69,7 +69,8 @@ template <typename Work>
 double Milliseconds(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
 }
 
 /// What was measured, with both ways.
@@ -144,8 +145,7 @@ void RunAll(const Arguments& arguments) {
   cv::setNumThreads(arguments.threads);
   const std::string file =
       arguments.config_file.empty() ? "stereo_driver.yaml" : arguments.config_file;
-  const auto config =
-      config::Load<EvaluationConfig>(config::FindConfig(file), arguments.overrides);
+  const auto config = config::Load<EvaluationConfig>(config::FindConfig(file), arguments.overrides);
   if (arguments.sequences.empty() && arguments.pairs.empty()) {
     throw config::ConfigError("nothing to measure; give --sequence or --pair");
   }

@@ -20,9 +20,9 @@ cv::Ptr<cv::StereoMatcher> PlainMatcher(Method method, int num_disparities) {
   }
   constexpr int kBlock_px = 3;
   constexpr int kChannels = 3;
-  return cv::StereoSGBM::create(0, num_disparities, kBlock_px, 8 * kChannels * kBlock_px * kBlock_px,
-                                32 * kChannels * kBlock_px * kBlock_px, 1, 63, 10, 100, 32,
-                                cv::StereoSGBM::MODE_SGBM_3WAY);
+  return cv::StereoSGBM::create(
+      0, num_disparities, kBlock_px, 8 * kChannels * kBlock_px * kBlock_px,
+      32 * kChannels * kBlock_px * kBlock_px, 1, 63, 10, 100, 32, cv::StereoSGBM::MODE_SGBM_3WAY);
 }
 
 PlainOpenCv::PlainOpenCv(const geometry::StereoCalibration& calibration, Method method,

@@ -73,7 +73,8 @@ RenderedSequence::RenderedSequence(const fs::path& folder, int every)
 cv::Mat RenderedSequence::ReadPicture(const std::string& name, int type) const {
   const cv::Mat picture = cv::imread((folder_ / name).string(), cv::IMREAD_UNCHANGED);
   if (picture.empty() || picture.type() != type) {
-    throw config::ConfigError((folder_ / name).string() + ": cannot be read as a picture of its kind");
+    throw config::ConfigError((folder_ / name).string() +
+                              ": cannot be read as a picture of its kind");
   }
   return picture;
 }

@@ -1,8 +1,8 @@
 #pragma once
 #include <filesystem>
-#include <optional>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/videoio.hpp>
+#include <optional>
 #include <set>
 
 #include "common/images/stereo_pair.h"

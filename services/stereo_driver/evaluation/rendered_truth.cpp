@@ -54,8 +54,10 @@ cv::Mat RenderedTruth::Compare(const TrueFrame& frame, const cv::Mat& depth, dou
       const double raw_m = frame.depth_mm.at<std::uint16_t>(y, x) / 1000.0;
       if (frame.is_body.at<std::uint8_t>(y, x) == 0 || raw_m <= 0.0) continue;
       const cv::Vec3d& ray = rays_.at<cv::Vec3d>(y, x);
-      const double u = rectified_.focal_px.x() * ray[0] / ray[2] + rectified_.principal_point_px.x();
-      const double v = rectified_.focal_px.y() * ray[1] / ray[2] + rectified_.principal_point_px.y();
+      const double u =
+          rectified_.focal_px.x() * ray[0] / ray[2] + rectified_.principal_point_px.x();
+      const double v =
+          rectified_.focal_px.y() * ray[1] / ray[2] + rectified_.principal_point_px.y();
       // Columns and rows start half a pixel before the first centre, whatever the size.
       const auto measured_m = DepthAt(depth, unit_m, (u + 0.5) * scale_x, (v + 0.5) * scale_y);
       const double true_m = raw_m * ray[2];
