@@ -11,6 +11,32 @@ constexpr float kLeastTexture = 20.0F;  // Of slope_square: holds still what has
 constexpr float kLongestStep_px = 0.5F;
 constexpr float kLongestWay_px = 1.0F;
 
+constexpr int kBlock = 64;
+
+/// Adds, to sum and count, those that agree with `here`.
+void AddAgreeing(const float* others, const float* here, float agree_px, int width, float* sum,
+                 float* count) {
+  for (int x = 0; x < width; ++x) {
+    const float difference = others[x] - here[x];
+    const float agrees = std::abs(difference) < agree_px ? 1.0F : 0.0F;
+    sum[x] += agrees * difference;
+    count[x] += agrees;
+  }
+}
+
+void SmoothBlock(const float* rows, std::int64_t stride, int side, float agree_px, int width,
+                 float* smoothed_px) {
+  float sum[kBlock] = {};
+  float count[kBlock] = {};
+  const float* here = rows + side / 2 * stride + side / 2;
+  for (int dy = 0; dy < side; ++dy) {
+    for (int dx = 0; dx < side; ++dx) {
+      AddAgreeing(rows + dy * stride + dx, here, agree_px, width, sum, count);
+    }
+  }
+  for (int x = 0; x < width; ++x) smoothed_px[x] = here[x] + sum[x] / count[x];
+}
+
 }  // namespace
 
 void CompareRow(const std::uint8_t* left, const std::uint8_t* right, const float* disparity_px,
@@ -49,21 +75,10 @@ void StepRow(const float* slope_error, const float* slope_square, const float* s
 
 void SmoothRow(const float* rows, std::int64_t stride, int side, float agree_px, int width,
                float* smoothed_px) {
-  const std::int64_t middle = side / 2 * stride + side / 2;
-  for (int x = 0; x < width; ++x) {
-    const float here = rows[x + middle];
-    float sum = 0.0F;
-    float count = 0.0F;
-    for (int dy = 0; dy < side; ++dy) {
-      const float* window = rows + dy * stride + x;
-      for (int dx = 0; dx < side; ++dx) {
-        const float difference = window[dx] - here;
-        const float agrees = std::abs(difference) < agree_px ? 1.0F : 0.0F;
-        sum += agrees * difference;
-        count += agrees;
-      }
-    }
-    smoothed_px[x] = here + sum / count;
+  // Block by block, so that the sums stay in the nearest cache and the innermost loop is long.
+  for (int start = 0; start < width; start += kBlock) {
+    SmoothBlock(rows + start, stride, side, agree_px, std::min(kBlock, width - start),
+                smoothed_px + start);
   }
 }
 
