@@ -21,7 +21,7 @@ inline auto EnumNames(Size) {
 }
 
 struct StereoMatcherConfig {
-  Size match_size = Size::kFull;  ///< Half: four times as fast, errors half as large again.
+  Size match_size = Size::kFull;  ///< Half: five times as fast, errors a third larger.
   Size depth_size = Size::kHalf;  ///< Of the published depth; not larger than match_size.
   double nearest_m =
       0.6;  ///< Nearer things have no depth; halving it costs half as much time again.
