@@ -38,6 +38,10 @@ struct CalibrationAnswer {
   std::string remark;  ///< "guessed from ...", "scaled from 640x480"; empty = as in the file.
 };
 
+/// The lens of pictures of `size`: as in the file, or scaled when they have another size of the
+/// same aspect. Throws ConfigError when the aspect is another one.
+CalibrationAnswer AtSize(const LensFile& lens, cv::Size size);
+
 /// Knows the camera's lens for any image size.
 class Calibration {
  public:

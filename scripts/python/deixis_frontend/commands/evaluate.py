@@ -7,6 +7,7 @@ from deixis_frontend.cli import Command
 _PACKAGE = "deixis_frontend.evaluation"
 SUBCOMMANDS: dict[str, Command] = {
     "calibration": Command(f"{_PACKAGE}.calibration", "stereo calibration against OpenCV's sample"),
+    "depth": Command(f"{_PACKAGE}.depth", "how much of people has a depth, and how exact it is"),
     "events": Command(f"{_PACKAGE}.events", "what is named when, on recordings of real people"),
     "hands": Command(f"{_PACKAGE}.hands", "the hand tracker's error, misses and false tracks"),
     "live": Command(f"{_PACKAGE}.live", "loss, age, CPU and memory of the chain at camera rate"),

@@ -1,0 +1,143 @@
+#include "common/capture/opencv_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "common/config/config.h"
+
+namespace deixis::capture {
+namespace {
+
+using geometry::CameraCalibration;
+using geometry::DistortionModel;
+
+constexpr std::size_t kPlumbBobValues = 5;
+constexpr std::size_t kRationalValues = 8;
+
+[[noreturn]] void FailIn(const std::string& path, const std::string& fault) {
+  throw config::ConfigError(path + ": " + fault);
+}
+
+void RequireReadableFile(const std::string& path, const std::string& cure) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    FailIn(path, "calibration file does not exist; " + cure);
+  }
+  errno = 0;
+  std::ifstream file(path);
+  file.peek();
+  if (!file.is_open() || file.bad()) {
+    FailIn(path, std::string("calibration file cannot be read: ") + std::strerror(errno) +
+                     "; check its rights");
+  }
+}
+
+cv::FileStorage OpenStorage(const std::string& path, const std::string& cure) {
+  RequireReadableFile(path, cure);
+  try {
+    cv::FileStorage storage(path, cv::FileStorage::READ);
+    if (storage.isOpened()) return storage;
+  } catch (const cv::Exception&) {
+    // The one message below serves both.
+  }
+  FailIn(path,
+         "is not a YAML file of OpenCV (first line %YAML:1.0); write it with its calibration");
+}
+
+std::string Either(const std::string& key, const std::string& other_key) {
+  return other_key.empty() ? key : key + " (or " + other_key + ")";
+}
+
+void ReadPinhole(const OpenCvFile& file, const LensKeys& keys, CameraCalibration& calibration) {
+  const cv::Mat matrix = file.Matrix(keys.matrix, keys.other_matrix);
+  const std::string name = Either(keys.matrix, keys.other_matrix);
+  if (matrix.rows != 3 || matrix.cols != 3) {
+    file.Fail(name + " must be 3x3 but is " + std::to_string(matrix.rows) + "x" +
+              std::to_string(matrix.cols));
+  }
+  calibration.focal_px = {matrix.at<double>(0, 0), matrix.at<double>(1, 1)};
+  calibration.principal_point_px = {matrix.at<double>(0, 2), matrix.at<double>(1, 2)};
+  if (calibration.focal_px.minCoeff() <= 0.0) {
+    file.Fail(name + " has a focal length that is not positive; calibrate again");
+  }
+}
+
+/// `values` cut or filled to what the lens model takes; what is cut must be zero.
+std::vector<double> FittedTo(std::size_t count, std::vector<double> values,
+                             const OpenCvFile& file) {
+  for (std::size_t i = count; i < values.size(); ++i) {
+    if (values[i] != 0.0) {
+      file.Fail("distortion has " + std::to_string(values.size()) +
+                " values; calibrate with 5 or 8 (no thin prism, no tilt)");
+    }
+  }
+  values.resize(count, 0.0);
+  return values;
+}
+
+void ReadDistortion(const OpenCvFile& file, const LensKeys& keys, CameraCalibration& calibration) {
+  const cv::Mat matrix = file.Matrix(keys.distortion, keys.other_distortion);
+  std::vector<double> values(matrix.begin<double>(), matrix.end<double>());
+  const bool is_fisheye = file.IsFisheye();
+  const bool is_vector = matrix.rows == 1 || matrix.cols == 1;
+  if (!is_vector || values.size() < 4 || (is_fisheye && values.size() != 4)) {
+    file.Fail(Either(keys.distortion, keys.other_distortion) +
+              " must be one row of 4, 5 or 8 values (fisheye: 4)");
+  }
+  const bool is_plumb_bob = values.size() <= kPlumbBobValues;
+  calibration.distortion_model = is_fisheye     ? DistortionModel::kFisheye
+                                 : is_plumb_bob ? DistortionModel::kPlumbBob
+                                                : DistortionModel::kRational;
+  if (!is_fisheye) {
+    values = FittedTo(is_plumb_bob ? kPlumbBobValues : kRationalValues, std::move(values), file);
+  }
+  calibration.distortion = std::move(values);
+}
+
+}  // namespace
+
+OpenCvFile::OpenCvFile(const std::string& path, const std::string& cure)
+    : path_(path), storage_(OpenStorage(path, cure)) {}
+
+void OpenCvFile::Fail(const std::string& fault) const { FailIn(path_, fault); }
+
+cv::Mat OpenCvFile::Matrix(const std::string& key, const std::string& other_key) const {
+  const std::string& found = Has(key) || other_key.empty() ? key : other_key;
+  if (!Has(found)) {
+    const std::string other = other_key.empty() ? "" : " (or '" + other_key + "')";
+    Fail("key '" + key + "'" + other + " is missing; calibrate again or add it");
+  }
+  cv::Mat matrix;
+  try {
+    storage_[found] >> matrix;
+  } catch (const cv::Exception&) {
+    matrix.release();
+  }
+  if (matrix.empty() || matrix.channels() != 1) {
+    Fail("key '" + found + "' is not an opencv-matrix; calibrate again or correct it");
+  }
+  matrix.convertTo(matrix, CV_64F);
+  if (!cv::checkRange(matrix)) Fail("key '" + found + "' has values that are not finite");
+  return matrix;
+}
+
+int OpenCvFile::PixelCount(const std::string& key) const {
+  const cv::FileNode node = storage_[key];
+  if (node.empty()) return 0;
+  const int count = node.isInt() ? static_cast<int>(node) : 0;
+  if (count <= 0) Fail("key '" + key + "' must be a positive whole number of pixels");
+  return count;
+}
+
+CameraCalibration ReadLens(const OpenCvFile& file, const LensKeys& keys) {
+  CameraCalibration calibration;
+  ReadPinhole(file, keys, calibration);
+  ReadDistortion(file, keys, calibration);
+  calibration.is_calibrated = true;
+  return calibration;
+}
+
+}  // namespace deixis::capture

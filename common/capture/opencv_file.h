@@ -1,0 +1,47 @@
+#pragma once
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "common/geometry/camera_calibration.h"
+
+namespace deixis::capture {
+
+/// A YAML file as OpenCV's calibration samples write it. All methods throw ConfigError naming file,
+/// key and cure.
+class OpenCvFile {
+ public:
+  /// Opens `path`; `cure` says what to do when there is no such file ("set calibration.file").
+  OpenCvFile(const std::string& path, const std::string& cure);
+
+  const std::string& path() const { return path_; }
+  bool Has(const std::string& key) const { return !storage_[key].empty(); }
+
+  /// The matrix under `key`, or under `other_key` when there is none and that is not empty; one
+  /// channel, CV_64F, all values finite.
+  cv::Mat Matrix(const std::string& key, const std::string& other_key = "") const;
+
+  /// The positive whole number under `key`; 0 when it is not there.
+  int PixelCount(const std::string& key) const;
+
+  /// Whether the lens was calibrated with OpenCV's fisheye model.
+  bool IsFisheye() const { return static_cast<int>(storage_["fisheye_model"]) == 1; }
+
+  [[noreturn]] void Fail(const std::string& fault) const;
+
+ private:
+  std::string path_;
+  cv::FileStorage storage_;
+};
+
+/// Under which keys a lens stands: each with the other one that is looked for.
+struct LensKeys {
+  std::string matrix = "camera_matrix";
+  std::string other_matrix = "M1";
+  std::string distortion = "distortion_coefficients";
+  std::string other_distortion = "D1";
+};
+
+/// A lens without its image size (0). Throws ConfigError.
+geometry::CameraCalibration ReadLens(const OpenCvFile& file, const LensKeys& keys);
+
+}  // namespace deixis::capture

@@ -1,0 +1,204 @@
+#include "services/stereo_driver/core/rig_calibration.h"
+
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
+
+#include "common/capture/opencv_file.h"
+#include "services/stereo_driver/core/camera_matrix.h"
+
+namespace deixis::stereo_driver {
+namespace {
+
+using capture::LensFile;
+using capture::OpenCvFile;
+using geometry::CameraCalibration;
+using geometry::StereoCalibration;
+
+// Two cameras on one robot stand further apart than their sensors are wide, and not a metre.
+constexpr long kLeastBaseline_mm = 5;
+constexpr long kLargestBaseline_mm = 1000;
+constexpr double kRotationTolerance = 1e-3;
+constexpr double kBaselineTolerance = 0.01;
+constexpr double kPrincipalPointTolerance_px = 0.01;
+
+Eigen::MatrixXd ReadMatrix(const OpenCvFile& file, const std::string& key, int rows, int cols) {
+  cv::Mat matrix = file.Matrix(key);
+  if (matrix.total() == static_cast<std::size_t>(rows) * cols && cols == 1) {
+    matrix = matrix.reshape(1, rows);
+  }
+  if (matrix.rows != rows || matrix.cols != cols) {
+    file.Fail(key + " must be " + std::to_string(rows) + "x" + std::to_string(cols) + " but is " +
+              std::to_string(matrix.rows) + "x" + std::to_string(matrix.cols) +
+              "; calibrate again or correct it");
+  }
+  Eigen::MatrixXd values;
+  cv::cv2eigen(matrix, values);
+  return values;
+}
+
+Eigen::Matrix3d ReadRotation(const OpenCvFile& file, const std::string& key) {
+  const Eigen::Matrix3d rotation = ReadMatrix(file, key, 3, 3);
+  const double error =
+      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (error > kRotationTolerance || rotation.determinant() < 0.0) {
+    file.Fail(key + " is not a rotation; calibrate again or correct it");
+  }
+  return rotation;
+}
+
+/// The translation of the left camera's origin into the right camera's frame, judged.
+Eigen::Vector3d ReadTranslation(const OpenCvFile& file, double unit_m) {
+  const Eigen::Vector3d translation_m = ReadMatrix(file, "T", 3, 1) * unit_m;
+  const long baseline_mm = std::lround(translation_m.norm() * 1000.0);
+  if (baseline_mm < kLeastBaseline_mm || baseline_mm > kLargestBaseline_mm) {
+    file.Fail("T makes a baseline of " + std::to_string(baseline_mm) +
+              " mm, which is not between " + std::to_string(kLeastBaseline_mm) + " and " +
+              std::to_string(kLargestBaseline_mm) +
+              "; set calibration.unit_m to the metres per unit of T (0.025 when it counts board "
+              "squares of 25 mm)");
+  }
+  return translation_m;
+}
+
+/// Along the line that halves the rotation between the cameras, as OpenCV rectifies.
+void RequireLeftToRight(const OpenCvFile& file, const geometry::RigidTransform& right_from_left) {
+  const Eigen::AngleAxisd rotation(right_from_left.rotation);
+  const Eigen::Vector3d along =
+      Eigen::AngleAxisd(-0.5 * rotation.angle(), rotation.axis()) * right_from_left.translation_m;
+  if (std::abs(along.y()) > std::abs(along.x()) || std::abs(along.z()) > std::abs(along.x())) {
+    file.Fail(
+        "T does not lie along the pictures' rows: the cameras stand one above or behind the other; "
+        "mount them side by side, turn the pictures, and calibrate again");
+  }
+  if (along.x() > 0.0) {
+    file.Fail(
+        "T says that the first camera is the right one; swap left and right in the sources and "
+        "calibrate again with the left camera first");
+  }
+}
+
+FiledRectification ReadRectification(const OpenCvFile& file, double unit_m, double baseline_m) {
+  FiledRectification filed;
+  filed.rectified_from_left = ReadRotation(file, "R1");
+  filed.rectified_from_right = ReadRotation(file, "R2");
+  const Eigen::MatrixXd p1 = ReadMatrix(file, "P1", 3, 4);
+  const Eigen::MatrixXd p2 = ReadMatrix(file, "P2", 3, 4);
+  const double p2_baseline_m = -p2(0, 3) / p2(0, 0) * unit_m;
+  if (!(std::abs(p2_baseline_m / baseline_m - 1.0) < kBaselineTolerance)) {
+    file.Fail(
+        "P2 and T disagree about the baseline; calibrate again, or set "
+        "calibration.rectification to computed");
+  }
+  if (!((p1 - p2).leftCols<3>().cwiseAbs().maxCoeff() < kPrincipalPointTolerance_px)) {
+    file.Fail(
+        "P1 and P2 have different principal points; rectify with CALIB_ZERO_DISPARITY, or "
+        "set calibration.rectification to computed");
+  }
+  filed.projection.path = file.path();
+  filed.projection.calibration.focal_px = {p1(0, 0), p1(1, 1)};
+  filed.projection.calibration.principal_point_px = {p1(0, 2), p1(1, 2)};
+  return filed;
+}
+
+/// The size that a file states, else that of the configuration; 0 when neither says.
+cv::Size StatedSize(const OpenCvFile& file, const RigCalibrationConfig& config) {
+  const cv::Size filed(file.PixelCount("image_width"), file.PixelCount("image_height"));
+  return filed.area() > 0 ? filed : cv::Size(config.width_px, config.height_px);
+}
+
+void SetSize(CameraCalibration& calibration, cv::Size size) {
+  calibration.width_px = size.width;
+  calibration.height_px = size.height;
+}
+
+LensFile ReadLensOf(const OpenCvFile& file, const std::string& number) {
+  return {file.path(), capture::ReadLens(file, {"M" + number, "", "D" + number, ""})};
+}
+
+void Rectify(StereoCalibration& calibration, double alpha) {
+  cv::Mat rotation, translation, r1, r2, p1, p2, q;
+  cv::eigen2cv(Eigen::Matrix3d(calibration.right_from_left.rotation.toRotationMatrix()), rotation);
+  cv::eigen2cv(calibration.right_from_left.translation_m, translation);
+  const cv::Size size(calibration.left.width_px, calibration.left.height_px);
+  cv::stereoRectify(CameraMatrix(calibration.left), calibration.left.distortion,
+                    CameraMatrix(calibration.right), calibration.right.distortion, size, rotation,
+                    translation, r1, r2, p1, p2, q, cv::CALIB_ZERO_DISPARITY, alpha, size);
+  cv::cv2eigen(r1, calibration.left.rectification);
+  cv::cv2eigen(r2, calibration.right.rectification);
+  calibration.rectified.focal_px = {p1.at<double>(0, 0), p1.at<double>(1, 1)};
+  calibration.rectified.principal_point_px = {p1.at<double>(0, 2), p1.at<double>(1, 2)};
+  SetSize(calibration.rectified, size);
+}
+
+void RequireUsableView(const StereoCalibration& calibration, const std::string& path) {
+  const Eigen::Vector2d& focal_px = calibration.rectified.focal_px;
+  const double widest = 20.0 * calibration.left.focal_px.maxCoeff();
+  if (!(focal_px.minCoeff() > 0.0) || !(focal_px.maxCoeff() < widest)) {
+    throw config::ConfigError(path +
+                              ": R and T leave no view that both cameras share; calibrate again");
+  }
+}
+
+}  // namespace
+
+void RigCalibrationConfig::Validate() const {
+  config::Faults faults;
+  faults.Require(!intrinsics.empty(), "intrinsics", "must name a file");
+  faults.Require(!extrinsics.empty(), "extrinsics", "must name a file");
+  faults.Require(unit_m > 0.0, "unit_m", "must be positive");
+  faults.Require(width_px >= 0 && height_px >= 0, "width_px",
+                 "must not be negative, nor height_px");
+  faults.Require((width_px == 0) == (height_px == 0), "height_px",
+                 "must be given when width_px is, and only then");
+  faults.Require(alpha >= 0.0 && alpha <= 1.0, "alpha", "must lie between 0 and 1");
+  faults.Require(disparity_sigma_px > 0.0 && disparity_sigma_px < 100.0, "disparity_sigma_px",
+                 "must lie between 0 and 100");
+  faults.ThrowIfAny();
+}
+
+RigCalibration::RigCalibration(RigCalibrationConfig config) : config_(std::move(config)) {
+  const OpenCvFile intrinsics(config::FindConfig(config_.intrinsics).string(),
+                              "set calibration.intrinsics");
+  const OpenCvFile extrinsics(config::FindConfig(config_.extrinsics).string(),
+                              "set calibration.extrinsics");
+  if (intrinsics.IsFisheye()) {
+    intrinsics.Fail("has fisheye lenses; calibrate with OpenCV's stereo_calib (pinhole lenses)");
+  }
+  left_ = ReadLensOf(intrinsics, "1");
+  right_ = ReadLensOf(intrinsics, "2");
+  const bool intrinsics_say = intrinsics.Has("image_width");
+  const cv::Size size = StatedSize(intrinsics_say ? intrinsics : extrinsics, config_);
+  SetSize(left_.calibration, size);
+  SetSize(right_.calibration, size);
+  right_from_left_.rotation = Eigen::Quaterniond(ReadRotation(extrinsics, "R")).normalized();
+  right_from_left_.translation_m = ReadTranslation(extrinsics, config_.unit_m);
+  RequireLeftToRight(extrinsics, right_from_left_);
+  if (config_.rectification == Rectification::kFromFile) {
+    filed_ = ReadRectification(extrinsics, config_.unit_m, right_from_left_.translation_m.norm());
+    SetSize(filed_.projection.calibration, size);
+  }
+}
+
+RigCalibrationAnswer RigCalibration::For(cv::Size size) const {
+  RigCalibrationAnswer answer;
+  StereoCalibration& calibration = answer.calibration;
+  const capture::CalibrationAnswer left = capture::AtSize(left_, size);
+  answer.remark = left.remark;
+  calibration.left = left.calibration;
+  calibration.right = capture::AtSize(right_, size).calibration;
+  calibration.right_from_left = right_from_left_;
+  calibration.disparity_sigma_px = config_.disparity_sigma_px;
+  if (config_.rectification == Rectification::kFromFile) {
+    calibration.left.rectification = filed_.rectified_from_left;
+    calibration.right.rectification = filed_.rectified_from_right;
+    calibration.rectified = capture::AtSize(filed_.projection, size).calibration;
+  } else {
+    Rectify(calibration, config_.alpha);
+  }
+  calibration.rectified.is_calibrated = true;
+  RequireUsableView(calibration, left_.path);
+  return answer;
+}
+
+}  // namespace deixis::stereo_driver

@@ -1,0 +1,88 @@
+#pragma once
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/config/config.h"
+#include "common/geometry/stereo_calibration.h"
+#include "common/images/stereo_pair.h"
+#include "services/stereo_driver/core/depth.h"
+#include "services/stereo_driver/core/disparity.h"
+#include "services/stereo_driver/core/rectifier.h"
+#include "services/stereo_driver/core/refinement.h"
+
+namespace deixis::stereo_driver {
+
+/// Of the pictures that are matched, or of the depth that comes out, as part of the pictures taken.
+enum class Size { kFull, kHalf };
+inline auto EnumNames(Size) {
+  return std::vector<std::pair<std::string, Size>>{{"full", Size::kFull}, {"half", Size::kHalf}};
+}
+
+struct StereoMatcherConfig {
+  Size match_size = Size::kFull;  ///< Half: five times as fast, errors a third larger.
+  Size depth_size = Size::kHalf;  ///< Of the published depth; not larger than match_size.
+  double nearest_m =
+      0.6;  ///< Nearer things have no depth; halving it costs half as much time again.
+  double farthest_m = 10.0;  ///< Farther things have no depth.
+  DisparityConfig disparity;
+  RefinementConfig refinement;
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("match_size", match_size);
+    v("depth_size", depth_size);
+    v("nearest_m", nearest_m);
+    v("farthest_m", farthest_m);
+    v("disparity", disparity);
+    v("refinement", refinement);
+  }
+  void Validate() const;  ///< Throws FaultsFound.
+};
+
+/// The left picture and what was measured of the same view.
+struct RectifiedDepth {
+  cv::Mat left_bgr;  ///< CV_8UC3, rectified.
+  cv::Mat depth_mm;  ///< CV_16UC1, millimetres along the rectified optical axis, 0 = not measured;
+                     ///< of the picture's size or half of it.
+};
+
+/// From a pair as taken to rectified picture and depth. The steps can be called one by one, to
+/// measure them; Measure does them all.
+class StereoMatcher {
+ public:
+  /// For pictures of the calibration's size. Throws FaultsFound, or std::logic_error on a
+  /// calibration that is none.
+  StereoMatcher(const StereoMatcherConfig& config, const geometry::StereoCalibration& calibration);
+
+  /// All steps. The result shares memory with this object and holds until the next call. Throws
+  /// std::logic_error on pictures of another size.
+  const RectifiedDepth& Measure(const images::StereoPair& pair);
+
+  void Rectify(const images::StereoPair& pair);  ///< First step: fills pair().
+  void Match();                                  ///< Second step: fills disparity().
+  void Refine();                                 ///< Third step: improves disparity().
+  void Convert();                                ///< Fourth step: fills result().
+
+  const RectifiedPair& pair() const { return rectified_; }
+  const cv::Mat& disparity() const {
+    return disparity_;
+  }  ///< Of match_size, in 1/16 of its pixels.
+  const RectifiedDepth& result() const { return result_; }
+  int num_disparities() const { return num_disparities_; }
+
+ private:
+  StereoMatcherConfig config_;
+  Rectifier rectifier_;
+  int num_disparities_;
+  DisparityMatcher matcher_;
+  DisparityRefiner refiner_;
+  DepthConverter converter_;
+  RectifiedPair rectified_;
+  cv::Mat left_to_match_, right_to_match_;
+  cv::Mat disparity_;
+  RectifiedDepth result_;
+};
+
+}  // namespace deixis::stereo_driver

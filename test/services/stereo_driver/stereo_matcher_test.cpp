@@ -1,0 +1,152 @@
+#include "services/stereo_driver/core/stereo_matcher.h"
+
+#include <gmock/gmock.h>
+
+#include <opencv2/core.hpp>
+
+#include "services/stereo_driver/core/rig_calibration.h"
+#include "test/services/stereo_driver/synthetic_rig.h"
+#include "test/support/temporary_folder.h"
+
+namespace deixis::stereo_driver {
+namespace {
+
+geometry::StereoCalibration RectifiedRig() {
+  const test::TemporaryFolder folder;
+  const geometry::StereoCalibration rig = SyntheticRig();
+  RigCalibrationConfig config;
+  config.intrinsics = folder.Write("intrinsics.yml", IntrinsicsText(rig)).string();
+  config.extrinsics = folder.Write("extrinsics.yml", ExtrinsicsText(rig)).string();
+  return RigCalibration(config).For({320, 240}).calibration;
+}
+
+struct Errors {
+  double valid = 0.0;    ///< Share of the pixels away from the border.
+  double mean_px = 0.0;  ///< As disparities of the full size.
+  double worst_px = 0.0;
+};
+
+Errors ErrorsOf(const geometry::StereoCalibration& rig, const Plane& plane,
+                const cv::Mat& depth_mm) {
+  const double focal_baseline =
+      rig.rectified.focal_px.x() * rig.right_from_left.translation_m.norm();
+  Errors errors;
+  int count = 0;
+  int valid = 0;
+  for (int y = depth_mm.rows / 8; y < depth_mm.rows * 7 / 8; ++y) {
+    for (int x = depth_mm.cols / 4; x < depth_mm.cols * 7 / 8; ++x) {
+      ++count;
+      const double measured_m = depth_mm.at<std::uint16_t>(y, x) / 1000.0;
+      if (measured_m <= 0.0) continue;
+      const double true_m = RectifiedDepth_m(rig, plane, depth_mm.size(), {x, y});
+      const double error_px = std::abs(focal_baseline / measured_m - focal_baseline / true_m);
+      errors.mean_px += error_px;
+      errors.worst_px = std::max(errors.worst_px, error_px);
+      ++valid;
+    }
+  }
+  errors.valid = static_cast<double>(valid) / count;
+  errors.mean_px /= std::max(1, valid);
+  return errors;
+}
+
+Plane Slanted() {
+  Plane plane;
+  plane.normal = Eigen::Vector3d(0.35, 0.2, 1.0).normalized();
+  plane.distance_m = 1.6;
+  return plane;
+}
+
+struct Way {
+  Size match_size;
+  Size depth_size;
+  Method method;
+  double mean_px;
+};
+
+class EveryWay : public testing::TestWithParam<Way> {};
+
+TEST_P(EveryWay, MeasuresPlanesThroughDistortedTurnedCameras) {
+  StereoMatcherConfig config;
+  config.match_size = GetParam().match_size;
+  config.depth_size = GetParam().depth_size;
+  config.disparity.method = GetParam().method;
+  const geometry::StereoCalibration rig = RectifiedRig();
+  StereoMatcher matcher(config, rig);
+  for (const Plane& plane : {Plane{}, Slanted()}) {
+    const images::StereoPair pair = Photograph(rig, plane);
+    const RectifiedDepth& result = matcher.Measure(pair);
+    EXPECT_EQ(result.left_bgr.size(), cv::Size(320, 240));
+    const int divisor = GetParam().depth_size == Size::kHalf ? 2 : 1;
+    EXPECT_EQ(result.depth_mm.size(), cv::Size(320 / divisor, 240 / divisor));
+    const Errors errors = ErrorsOf(rig, plane, result.depth_mm);
+    EXPECT_GT(errors.valid, 0.97);
+    EXPECT_LT(errors.mean_px, GetParam().mean_px);
+    EXPECT_LT(errors.worst_px, 1.5);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, EveryWay,
+                         testing::Values(Way{Size::kFull, Size::kHalf, Method::kSgbm3way, 0.08},
+                                         Way{Size::kFull, Size::kFull, Method::kSgbm3way, 0.08},
+                                         Way{Size::kHalf, Size::kHalf, Method::kSgbm3way, 0.16},
+                                         Way{Size::kFull, Size::kHalf, Method::kBm, 0.08}));
+
+TEST(StereoMatcher, SameInputMakesTheSameBytesAndNewMemoryIsNotAskedFor) {
+  const geometry::StereoCalibration rig = RectifiedRig();
+  const images::StereoPair pair = Photograph(rig, Slanted());
+  StereoMatcher matcher({}, rig);
+  const cv::Mat first = matcher.Measure(pair).depth_mm.clone();
+  const void* memory = matcher.result().depth_mm.data;
+  const cv::Mat second = matcher.Measure(pair).depth_mm;
+  EXPECT_EQ(second.data, memory);
+  EXPECT_EQ(cv::countNonZero(first != second), 0);
+}
+
+TEST(StereoMatcher, DistancesOutOfRangeAreZero) {
+  const geometry::StereoCalibration rig = RectifiedRig();
+  StereoMatcherConfig config;
+  config.farthest_m = 1.5;
+  StereoMatcher matcher(config, rig);
+  EXPECT_EQ(cv::countNonZero(matcher.Measure(Photograph(rig, {})).depth_mm), 0);
+}
+
+TEST(StereoMatcher, RefusesPicturesOfAnotherSize) {
+  StereoMatcher matcher({}, RectifiedRig());
+  images::StereoPair pair;
+  pair.left.bgr = pair.right.bgr = cv::Mat::zeros(480, 640, CV_8UC3);
+  EXPECT_THROW(matcher.Measure(pair), std::logic_error);
+}
+
+TEST(StereoMatcherConfig, DepthIsNotLargerThanWhatIsMatched) {
+  StereoMatcherConfig config;
+  config.match_size = Size::kHalf;
+  config.depth_size = Size::kFull;
+  config.nearest_m = 5.0;
+  config.farthest_m = 4.0;
+  using testing::HasSubstr;
+  EXPECT_THAT([&] { config.Validate(); },
+              testing::ThrowsMessage<config::ConfigError>(
+                  testing::AllOf(HasSubstr("depth_size"), HasSubstr("farthest_m"))));
+}
+
+TEST(Rectifier, SidesOfTheRectifiedPairAgreeRowByRow) {
+  const geometry::StereoCalibration rig = RectifiedRig();
+  RectifiedPair pair;
+  Plane plane;
+  Rectifier(rig).Rectify(Photograph(rig, plane), pair);
+  const double disparity_px = rig.rectified.focal_px.x() *
+                              rig.right_from_left.translation_m.norm() /
+                              RectifiedDepth_m(rig, plane, {320, 240}, {160, 120});
+  const cv::Rect patch(140, 100, 40, 40);
+  const cv::Mat left = pair.left_grey(patch);
+  const auto difference = [&](int dy) {
+    const cv::Point shift(static_cast<int>(std::lround(disparity_px)), dy);
+    return cv::norm(left, pair.right_grey(patch - shift), cv::NORM_L1);
+  };
+  EXPECT_LT(difference(0), difference(1));
+  EXPECT_LT(difference(0), difference(-1));
+}
+
+}  // namespace
+}  // namespace deixis::stereo_driver
