@@ -54,7 +54,17 @@ std::vector<std::uint8_t> ReadBytes(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-std::optional<Picture> ReadPicture(const fs::path& file) {
+std::optional<Picture> ReadDepth(const fs::path& file) {
+  const std::vector<std::uint8_t> bytes = ReadBytes(file);
+  if (bytes.empty()) return std::nullopt;
+  Picture picture;
+  picture.depth = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+  if (picture.depth.empty() || picture.depth.type() != CV_16UC1) return std::nullopt;
+  return picture;
+}
+
+std::optional<Picture> ReadPicture(const fs::path& file, FolderContent content) {
+  if (content == FolderContent::kDepth) return ReadDepth(file);
   Picture picture;
   picture.jpeg = ReadBytes(file);
   if (picture.jpeg.empty()) return std::nullopt;
@@ -176,8 +186,10 @@ std::vector<FolderSource::Entry> FolderSource::ListPictures(const SourceConfig& 
   return entries;
 }
 
-FolderSource::FolderSource(const SourceConfig& config)
-    : entries_(ListPictures(config)), period_s_(config.rate_hz > 0.0 ? 1.0 / config.rate_hz : 0.0) {
+FolderSource::FolderSource(const SourceConfig& config, FolderContent content)
+    : content_(content),
+      entries_(ListPictures(config)),
+      period_s_(config.rate_hz > 0.0 ? 1.0 / config.rate_hz : 0.0) {
   if (entries_.empty()) {
     throw config::ConfigError("folder '" + config.path + "' has no picture that matches '" +
                               config.pattern + "'; check " + config.key + ".path and " +
@@ -188,7 +200,7 @@ FolderSource::FolderSource(const SourceConfig& config)
 Grab FolderSource::Next() {
   while (next_ < entries_.size()) {
     const std::size_t index = next_++;
-    std::optional<Picture> picture = ReadPicture(entries_[index].file);
+    std::optional<Picture> picture = ReadPicture(entries_[index].file, content_);
     if (!picture) {
       ++corrupt_;
       last_corrupt_ = entries_[index].file.string();

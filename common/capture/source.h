@@ -18,6 +18,7 @@ struct Picture {
   Timestamp time;         ///< Live: capture time. Recorded: time since the recording began.
   double period_s = 0.0;  ///< Nominal time to the next picture; 0 = not known (live).
   cv::Mat bgr;            ///< rows x cols, CV_8UC3; empty when it could not be decoded.
+  cv::Mat depth;          ///< rows x cols, CV_16UC1; of depth sources, which have no `bgr`.
   std::vector<std::uint8_t> jpeg;  ///< The file that `bgr` was decoded from; empty = there is none.
 };
 

@@ -11,7 +11,8 @@
 namespace deixis::capture {
 namespace {
 
-std::unique_ptr<Source> OpenOnce(const SourceConfig& config, const Clocks& clocks) {
+std::unique_ptr<Source> OpenOnce(const SourceConfig& config, const Clocks& clocks,
+                                 FolderContent content) {
   switch (config.kind) {
     case SourceKind::kDevice:
       return std::make_unique<LiveSource>(DeviceCapture(config, clocks), clocks.monotonic);
@@ -20,9 +21,15 @@ std::unique_ptr<Source> OpenOnce(const SourceConfig& config, const Clocks& clock
     case SourceKind::kVideo:
       return std::make_unique<VideoSource>(config);
     case SourceKind::kFolder:
-      return std::make_unique<FolderSource>(config);
+      return std::make_unique<FolderSource>(config, content);
   }
   throw std::logic_error("unknown source kind");
+}
+
+std::unique_ptr<Source> Open(const SourceConfig& config, const Clocks& clocks,
+                             FolderContent content) {
+  const auto open = [config, clocks, content] { return OpenOnce(config, clocks, content); };
+  return config.loop ? std::make_unique<LoopedSource>(open) : open();
 }
 
 }  // namespace
@@ -41,8 +48,15 @@ void SourceConfig::Check(config::Faults& faults) const {
 }
 
 std::unique_ptr<Source> MakeSource(const SourceConfig& config, const Clocks& clocks) {
-  if (!config.loop) return OpenOnce(config, clocks);
-  return std::make_unique<LoopedSource>([config, clocks] { return OpenOnce(config, clocks); });
+  return Open(config, clocks, FolderContent::kColour);
+}
+
+std::unique_ptr<Source> MakeDepthSource(const SourceConfig& config, const Clocks& clocks) {
+  if (config.kind != SourceKind::kFolder) {
+    throw config::ConfigError("depth can be read from folders only; set " + config.key +
+                              ".kind to folder");
+  }
+  return Open(config, clocks, FolderContent::kDepth);
 }
 
 }  // namespace deixis::capture

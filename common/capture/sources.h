@@ -52,4 +52,7 @@ struct SourceConfig {
 /// with the cure, when it cannot be opened.
 std::unique_ptr<Source> MakeSource(const SourceConfig& config, const Clocks& clocks);
 
+/// The same for a folder of 16-bit depth pictures: Picture::depth is set, not Picture::bgr.
+std::unique_ptr<Source> MakeDepthSource(const SourceConfig& config, const Clocks& clocks);
+
 }  // namespace deixis::capture

@@ -1,0 +1,107 @@
+#include "services/stereo_driver/core/sources/matched_source.h"
+
+#include <utility>
+
+namespace deixis::stereo_driver {
+namespace {
+
+using capture::Picture;
+using capture::Source;
+using capture::SourceState;
+using capture::SourceStatus;
+
+// What waits in a live camera is the newest picture; in a recording, the next one.
+bool IsWanted(const Source& source, SourceState state, bool has_one_waiting) {
+  if (state == SourceState::kFinished) return false;
+  return source.status().is_live || !has_one_waiting;
+}
+
+SourceStatus Together(const SourceStatus& left, const SourceStatus& right) {
+  SourceStatus status = left;
+  status.is_live = left.is_live && right.is_live;
+  if (!right.trouble.empty())
+    status.trouble += (status.trouble.empty() ? "" : "; ") + right.trouble;
+  status.skipped += right.skipped;
+  status.corrupt += right.corrupt;
+  if (status.last_corrupt.empty()) status.last_corrupt = right.last_corrupt;
+  return status;
+}
+
+cv::Mat InMillimetres(const cv::Mat& depth, double unit_mm) {
+  if (unit_mm == 1.0) return depth;
+  cv::Mat depth_mm;
+  depth.convertTo(depth_mm, CV_16UC1, unit_mm);
+  return depth_mm;
+}
+
+}  // namespace
+
+MatchedSource::MatchedSource(std::unique_ptr<Source> left, std::unique_ptr<Source> right,
+                             double max_skew_s, Compose compose)
+    : left_(std::move(left)),
+      right_(std::move(right)),
+      compose_(std::move(compose)),
+      matcher_(max_skew_s) {}
+
+FrameGrab MatchedSource::Next() {
+  while (true) {
+    if (auto frame = NextMatch()) return {SourceState::kPicture, std::move(frame)};
+    const bool has_left = FetchLeft();
+    const bool has_right = FetchRight();
+    if (has_left || has_right) continue;
+    if (!HasEnded()) return {SourceState::kWaiting, std::nullopt};
+    matcher_.Finish();
+    return {SourceState::kFinished, std::nullopt};
+  }
+}
+
+std::optional<Frame> MatchedSource::NextMatch() {
+  while (const auto match = matcher_.Next()) {
+    if (auto frame = compose_(match->first, match->second)) return frame;
+    ++unusable_;
+  }
+  return std::nullopt;
+}
+
+bool MatchedSource::FetchLeft() {
+  if (!IsWanted(*left_, left_state_, matcher_.first_waits())) return false;
+  capture::Grab grab = left_->Next();
+  left_state_ = grab.state;
+  if (grab.picture) matcher_.AddFirst(grab.picture->time, std::move(*grab.picture));
+  return left_state_ == SourceState::kPicture;
+}
+
+bool MatchedSource::FetchRight() {
+  if (!IsWanted(*right_, right_state_, matcher_.second_waits())) return false;
+  capture::Grab grab = right_->Next();
+  right_state_ = grab.state;
+  if (grab.picture) matcher_.AddSecond(grab.picture->time, std::move(*grab.picture));
+  return right_state_ == SourceState::kPicture;
+}
+
+// When one recording is over, nothing more can be matched.
+bool MatchedSource::HasEnded() const {
+  return (left_state_ == SourceState::kFinished && !matcher_.first_waits()) ||
+         (right_state_ == SourceState::kFinished && !matcher_.second_waits());
+}
+
+FrameSourceStatus MatchedSource::status() const {
+  return {Together(left_->status(), right_->status()), matcher_.unmatched_first(),
+          matcher_.unmatched_second(), unusable_};
+}
+
+std::optional<Frame> ComposePair(const Picture& left, const Picture& right) {
+  if (left.bgr.size() != right.bgr.size()) return std::nullopt;
+  return Frame{left.time,
+               images::StereoPair{{left.time, "", left.bgr}, {left.time, "", right.bgr}}};
+}
+
+std::optional<Frame> ComposeColourAndDepth(const Picture& colour, const Picture& depth,
+                                           double depth_unit_mm) {
+  const cv::Mat depth_mm = InMillimetres(depth.depth, depth_unit_mm);
+  return Frame{colour.time, images::RgbdImage{{colour.time, "", colour.bgr},
+                                              {colour.time, "", depth_mm},
+                                              /*is_registered=*/true}};
+}
+
+}  // namespace deixis::stereo_driver

@@ -1,0 +1,109 @@
+#include "common/time/time_matcher.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+namespace deixis {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+class TimeMatcherTest : public testing::Test {
+ protected:
+  void First(std::int64_t ms) { matcher_.AddFirst({ms * 1000}, "a" + std::to_string(ms)); }
+  void Second(std::int64_t ms) { matcher_.AddSecond({ms * 1000}, "b" + std::to_string(ms)); }
+  std::vector<std::string> Matches() {
+    std::vector<std::string> all;
+    while (const auto match = matcher_.Next()) all.push_back(match->first + match->second);
+    return all;
+  }
+
+  TimeMatcher<std::string, std::string> matcher_{0.010, 4};
+};
+
+TEST_F(TimeMatcherTest, PairsWhatWasTakenTogether) {
+  First(0);
+  Second(2);
+  First(33);
+  Second(34);
+  EXPECT_THAT(Matches(), ElementsAre("a0b2", "a33b34"));
+  EXPECT_EQ(matcher_.unmatched_first() + matcher_.unmatched_second(), 0);
+}
+
+TEST_F(TimeMatcherTest, DoesNotMindWhichStreamIsLate) {
+  Second(0);
+  Second(33);
+  EXPECT_THAT(Matches(), IsEmpty());
+  First(1);
+  First(34);
+  EXPECT_THAT(Matches(), ElementsAre("a1b0", "a34b33"));
+}
+
+TEST_F(TimeMatcherTest, CountsWhatHasNoPartner) {
+  First(0);
+  First(33);
+  Second(33);
+  First(66);
+  Second(99);
+  First(99);
+  EXPECT_THAT(Matches(), ElementsAre("a33b33", "a99b99"));
+  EXPECT_EQ(matcher_.unmatched_first(), 2);
+  EXPECT_EQ(matcher_.unmatched_second(), 0);
+}
+
+TEST_F(TimeMatcherTest, PrefersTheNearerPartner) {
+  First(0);
+  First(9);
+  Second(10);
+  EXPECT_THAT(Matches(), ElementsAre("a9b10"));
+  EXPECT_EQ(matcher_.unmatched_first(), 1);
+}
+
+TEST_F(TimeMatcherTest, PairsAtTheSkewAndNotBeyondIt) {
+  First(0);
+  Second(10);
+  EXPECT_THAT(Matches(), ElementsAre("a0b10"));
+  First(100);
+  Second(111);
+  EXPECT_THAT(Matches(), IsEmpty());
+  EXPECT_EQ(matcher_.unmatched_first(), 1);
+}
+
+TEST_F(TimeMatcherTest, WaitsWithNoMoreThanItsCapacityWhenTheOtherStreamIsSilent) {
+  for (int i = 0; i < 10; ++i) First(33 * i);
+  EXPECT_EQ(matcher_.unmatched_first(), 6);
+  Second(33 * 9);
+  EXPECT_THAT(Matches(), ElementsAre("a297b297"));
+}
+
+TEST_F(TimeMatcherTest, BeginsAnewWhenTimeGoesBackwards) {
+  First(1'000'000);
+  First(1'000'033);
+  First(0);
+  Second(0);
+  EXPECT_THAT(Matches(), ElementsAre("a0b0"));
+  EXPECT_EQ(matcher_.unmatched_first(), 2);
+}
+
+TEST_F(TimeMatcherTest, RecoversWhenBothStreamsGoBackwards) {
+  First(1'000'000);
+  Second(1'000'040);
+  First(0);
+  Second(1);
+  EXPECT_THAT(Matches(), ElementsAre("a0b1"));
+}
+
+TEST_F(TimeMatcherTest, CountsWhatIsLeftAtTheEnd) {
+  First(0);
+  Second(50);
+  matcher_.Finish();
+  EXPECT_EQ(matcher_.unmatched_first(), 1);
+  EXPECT_EQ(matcher_.unmatched_second(), 1);
+  EXPECT_FALSE(matcher_.first_waits());
+}
+
+}  // namespace
+}  // namespace deixis

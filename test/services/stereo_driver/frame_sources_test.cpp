@@ -1,0 +1,171 @@
+#include <gmock/gmock.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "services/stereo_driver/core/sources/matched_source.h"
+#include "services/stereo_driver/core/sources/side_by_side_source.h"
+#include "services/stereo_driver/core/sources/sources.h"
+#include "test/common/capture/scripted_source.h"
+#include "test/support/temporary_folder.h"
+
+namespace deixis::stereo_driver {
+namespace {
+
+using capture::Picture;
+using capture::PictureAt;
+using capture::ScriptedSource;
+using capture::SourceState;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::unique_ptr<capture::Source> Script(const std::vector<std::int64_t>& times_ms) {
+  std::vector<Picture> pictures;
+  for (const std::int64_t time : times_ms) pictures.push_back(PictureAt(1000 * time));
+  return std::make_unique<ScriptedSource>(std::move(pictures));
+}
+
+std::vector<std::int64_t> TimesOf(FrameSource& source) {
+  std::vector<std::int64_t> times_ms;
+  for (FrameGrab grab = source.Next(); grab.frame; grab = source.Next()) {
+    times_ms.push_back(grab.frame->time.microseconds / 1000);
+  }
+  return times_ms;
+}
+
+TEST(MatchedSource, PairsByTimeAndCountsTheRest) {
+  MatchedSource source(Script({0, 33, 66, 100}), Script({1, 34, 101}), 0.010, ComposePair);
+  EXPECT_THAT(TimesOf(source), ElementsAre(0, 33, 100));
+  EXPECT_EQ(source.status().unmatched_left, 1);
+  EXPECT_EQ(source.status().unmatched_right, 0);
+  EXPECT_EQ(source.Next().state, SourceState::kFinished);
+}
+
+TEST(MatchedSource, EndsWithTheShorterRecording) {
+  MatchedSource source(Script({0, 33, 66, 100, 133}), Script({0}), 0.010, ComposePair);
+  EXPECT_THAT(TimesOf(source), ElementsAre(0));
+  EXPECT_EQ(source.Next().state, SourceState::kFinished);
+}
+
+TEST(MatchedSource, PassesOverPicturesOfTwoSizes) {
+  std::vector<Picture> right{PictureAt(0, {32, 24}), PictureAt(33'000)};
+  MatchedSource source(Script({0, 33}), std::make_unique<ScriptedSource>(std::move(right)), 0.010,
+                       ComposePair);
+  EXPECT_THAT(TimesOf(source), ElementsAre(33));
+  EXPECT_EQ(source.status().unusable, 1);
+}
+
+TEST(MatchedSource, SaysTheTroubleOfEither) {
+  capture::SourceStatus lost;
+  lost.trouble = "right camera is lost";
+  MatchedSource source(Script({}), std::make_unique<ScriptedSource>(std::vector<Picture>{}, lost),
+                       0.010, ComposePair);
+  EXPECT_EQ(source.status().pictures.trouble, "right camera is lost");
+}
+
+std::unique_ptr<capture::Source> Halves(int width) {
+  Picture picture = PictureAt(5000, {width, 4});
+  picture.bgr.colRange(0, width / 2) = cv::Scalar(1, 1, 1);
+  picture.bgr.colRange(width / 2, width) = cv::Scalar(9, 9, 9);
+  return std::make_unique<ScriptedSource>(std::vector<Picture>{picture});
+}
+
+int FirstValue(const cv::Mat& bgr) { return bgr.at<cv::Vec3b>(0, 0)[0]; }
+
+TEST(SideBySideSource, SplitsThePictureInItsMiddle) {
+  SideBySideSource source(Halves(12), LeftHalf::kLeft);
+  const FrameGrab grab = source.Next();
+  const auto& pair = std::get<images::StereoPair>(grab.frame->images);
+  EXPECT_EQ(pair.left.bgr.cols, 6);
+  EXPECT_EQ(FirstValue(pair.left.bgr), 1);
+  EXPECT_EQ(FirstValue(pair.right.bgr), 9);
+  EXPECT_EQ(grab.frame->time.microseconds, 5000);
+}
+
+TEST(SideBySideSource, TakesTheLeftViewFromTheRightHalfWhenTold) {
+  SideBySideSource source(Halves(12), LeftHalf::kRight);
+  const FrameGrab grab = source.Next();
+  EXPECT_EQ(FirstValue(std::get<images::StereoPair>(grab.frame->images).left.bgr), 9);
+}
+
+TEST(SideBySideSource, PassesOverPicturesOfAnOddWidth) {
+  SideBySideSource source(Halves(13), LeftHalf::kLeft);
+  EXPECT_EQ(source.Next().state, SourceState::kFinished);
+  EXPECT_EQ(source.status().unusable, 1);
+}
+
+capture::Clocks NoClocks() {
+  return {[] { return Timestamp{}; }, [] { return Timestamp{}; }};
+}
+
+class ColourAndDepthTest : public testing::Test {
+ protected:
+  ColourAndDepthTest() {
+    config_.kind = FrameSourceKind::kColourAndDepth;
+    for (auto* source : {&config_.left, &config_.right}) {
+      source->kind = capture::SourceKind::kFolder;
+      source->path = folder_.path().string();
+      source->rate_hz = 10.0;
+    }
+    config_.left.pattern = "*.jpg";
+    config_.right.pattern = "*.png";
+  }
+
+  void WriteFrame(const std::string& name, const cv::Mat& depth) {
+    cv::imwrite((folder_.path() / (name + ".jpg")).string(), cv::Mat(6, 8, CV_8UC3, {1, 2, 3}));
+    cv::imwrite((folder_.path() / (name + ".png")).string(), depth);
+  }
+
+  test::TemporaryFolder folder_;
+  FrameSourceConfig config_;
+};
+
+TEST_F(ColourAndDepthTest, GivesTheDepthOfEachPicture) {
+  WriteFrame("1", cv::Mat(6, 8, CV_16UC1, cv::Scalar(1500)));
+  WriteFrame("2", cv::Mat(6, 8, CV_16UC1, cv::Scalar(4000)));
+  const auto source = MakeFrameSource(config_, NoClocks());
+  source->Next();
+  const FrameGrab grab = source->Next();
+  const auto& rgbd = std::get<images::RgbdImage>(grab.frame->images);
+  EXPECT_EQ(rgbd.depth.depth_mm.at<std::uint16_t>(3, 3), 4000);
+  EXPECT_EQ(rgbd.colour.bgr.cols, 8);
+  EXPECT_EQ(grab.frame->time.microseconds, 100'000);
+}
+
+TEST_F(ColourAndDepthTest, CountsDepthInItsUnit) {
+  WriteFrame("1", cv::Mat(6, 8, CV_16UC1, cv::Scalar(5000)));
+  config_.depth_unit_mm = 0.2;
+  const auto source = MakeFrameSource(config_, NoClocks());
+  const FrameGrab grab = source->Next();
+  EXPECT_EQ(std::get<images::RgbdImage>(grab.frame->images).depth.depth_mm.at<std::uint16_t>(0, 0),
+            1000);
+}
+
+TEST_F(ColourAndDepthTest, CountsPicturesThatAreNoDepthAsCorrupt) {
+  WriteFrame("1", cv::Mat(6, 8, CV_8UC1, cv::Scalar(50)));
+  WriteFrame("2", cv::Mat(6, 8, CV_16UC1, cv::Scalar(4000)));
+  const auto source = MakeFrameSource(config_, NoClocks());
+  EXPECT_THAT(TimesOf(*source), ElementsAre(100));
+  EXPECT_EQ(source->status().pictures.corrupt, 1);
+  EXPECT_THAT(source->status().pictures.last_corrupt, HasSubstr("1.png"));
+  EXPECT_EQ(source->status().unmatched_left, 1);
+}
+
+TEST_F(ColourAndDepthTest, NamesTheKeyOfAFolderThatIsNotThere) {
+  config_.right.path = "/nowhere";
+  WriteFrame("1", cv::Mat(6, 8, CV_16UC1, cv::Scalar(1)));
+  EXPECT_THAT([&] { MakeFrameSource(config_, NoClocks()); },
+              testing::ThrowsMessage<config::ConfigError>(HasSubstr("set source.right.path")));
+}
+
+TEST(FrameSourceConfig, TakesTwoRecordingsOrTwoLiveCameras) {
+  FrameSourceConfig config;
+  config.left.kind = capture::SourceKind::kVideo;
+  config::Faults faults;
+  config.Check(faults);
+  EXPECT_THAT([&] { faults.ThrowIfAny(); },
+              testing::ThrowsMessage<config::FaultsFound>(HasSubstr("source.right.kind")));
+}
+
+}  // namespace
+}  // namespace deixis::stereo_driver
