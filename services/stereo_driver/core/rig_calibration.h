@@ -79,7 +79,6 @@ class RigCalibration {
   capture::LensFile left_;
   capture::LensFile right_;
   geometry::RigidTransform right_from_left_;
-  std::string extrinsics_path_;
   FiledRectification filed_;  ///< Only with `from_file`.
 };
 
