@@ -1,43 +1,21 @@
 #include "services/camera_driver/camera_driver_service.h"
 
-#include <chrono>
 #include <opencv2/core/utils/logger.hpp>
 
+#include "common/capture/system_clocks.h"
 #include "common/logging/log.h"
 #include "common/messages/camera_calibration.h"
 #include "common/messages/image.h"
+#include "common/program/source_step.h"
 #include "common/transport/channel_name.h"
 
 namespace deixis::camera_driver {
 namespace {
 
-template <typename Clock>
-Timestamp Now() {
-  const auto since_start = Clock::now().time_since_epoch();
-  return {std::chrono::duration_cast<std::chrono::microseconds>(since_start).count()};
-}
-
-// steady_clock is CLOCK_MONOTONIC on Linux.
-capture::Clocks SystemClocks() {
-  return {Now<std::chrono::system_clock>, Now<std::chrono::steady_clock>};
-}
-
 // OpenCV would say a page on every way in which it failed to open something; ours is one line.
 std::unique_ptr<capture::Source> OpenQuietly(const capture::SourceConfig& config) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  return capture::MakeSource(config, SystemClocks());
-}
-
-program::StepResult ResultOf(capture::SourceState state) {
-  switch (state) {
-    case capture::SourceState::kPicture:
-      return program::StepResult::kContinue;
-    case capture::SourceState::kWaiting:
-      return program::StepResult::kIdle;
-    case capture::SourceState::kFinished:
-      return program::StepResult::kFinished;
-  }
-  return program::StepResult::kFinished;
+  return capture::MakeSource(config, capture::SystemClocks());
 }
 
 void Append(const std::string& part, std::string& text) {
@@ -55,21 +33,11 @@ void CameraDriverServiceConfig::Validate() const {
   faults.ThrowIfAny();
 }
 
-PlayingClock::PlayingClock(capture::Clocks clocks)
-    : clocks_(std::move(clocks)),
-      wall_began_(clocks_.wall()),
-      monotonic_began_(clocks_.monotonic()) {}
-
-Timestamp PlayingClock::Now() const {
-  return {wall_began_.microseconds + clocks_.monotonic().microseconds -
-          monotonic_began_.microseconds};
-}
-
 CameraDriverService::CameraDriverService(const CameraDriverServiceConfig& config, transport::Bus&,
                                          transport::Bus& output)
     : config_(config),
       output_(output),
-      clock_(SystemClocks()),
+      clock_(capture::SystemClocks()),
       driver_(config.driver, OpenQuietly(config.driver.source)) {}
 
 program::StepResult CameraDriverService::Step() {
@@ -77,7 +45,7 @@ program::StepResult CameraDriverService::Step() {
   Publish(step);
   LogNews();
   if (step.state == capture::SourceState::kFinished) LogSummary();
-  return ResultOf(step.state);
+  return program::ResultOf(step.state);
 }
 
 void CameraDriverService::Publish(const DriverOutput& step) {

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "common/capture/clocks.h"
+#include "common/capture/playing_clock.h"
 #include "common/program/service_loop.h"
 #include "common/transport/bus.h"
 #include "common/transport/status_reporter.h"
@@ -23,19 +23,6 @@ struct CameraDriverServiceConfig {
   void Validate() const;
 };
 
-/// The wall clock as it was when this began, going on by the monotonic one: a recording that is
-/// played goes on evenly when somebody sets the clock.
-class PlayingClock {
- public:
-  explicit PlayingClock(capture::Clocks clocks);
-  Timestamp Now() const;
-
- private:
-  capture::Clocks clocks_;
-  Timestamp wall_began_;
-  Timestamp monotonic_began_;
-};
-
 /// Publishes a camera's pictures and its calibration.
 class CameraDriverService {
  public:
@@ -54,7 +41,7 @@ class CameraDriverService {
 
   CameraDriverServiceConfig config_;
   transport::Bus& output_;
-  PlayingClock clock_;
+  capture::PlayingClock clock_;
   CameraDriver driver_;
   std::int64_t published_ = 0;  ///< Pictures.
   std::string logged_remark_;

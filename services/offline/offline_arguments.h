@@ -11,7 +11,7 @@ namespace deixis::offline {
 struct Arguments {
   std::string input;
   std::string output;
-  std::vector<std::string> services = KnownServices();
+  std::vector<std::string> services = DefaultServices();
   Configuration configuration;
   std::string channel_prefix;
   bool results_only = false;

@@ -8,6 +8,7 @@
 #include "services/gesture_recogniser/gesture_recogniser_service.h"
 #include "services/hand_tracker/hand_tracker_service.h"
 #include "services/object_detector/object_detector_service.h"
+#include "services/stereo_driver/stereo_driver_service.h"
 
 namespace deixis::offline {
 namespace {
@@ -18,6 +19,8 @@ using hand_tracker::HandTrackerService;
 using hand_tracker::HandTrackerServiceConfig;
 using object_detector::ObjectDetectorService;
 using object_detector::ObjectDetectorServiceConfig;
+using stereo_driver::StereoDriverService;
+using stereo_driver::StereoDriverServiceConfig;
 
 template <typename Service, typename Config>
 class Hosted final : public HostedService {
@@ -35,18 +38,33 @@ class Hosted final : public HostedService {
 using Maker = std::function<std::unique_ptr<HostedService>(
     const std::string& file, const std::vector<std::string>& overrides, transport::Bus& bus)>;
 
+/// Sets what a service has to do otherwise when its input is a log.
+template <typename Config>
+void SuitLog(Config&) {}
+
+// Cameras are not there: pairs come from the log, unless frames of a depth camera do.
+void SuitLog(StereoDriverServiceConfig& config) {
+  auto& kind = config.driver.source.kind;
+  if (!stereo_driver::ComesFromBus(kind)) kind = stereo_driver::FrameSourceKind::kPairChannel;
+  config.publishes_pairs = false;
+}
+
 template <typename Service, typename Config>
 Maker MakerOf(typename Hosted<Service, Config>::Channels channels) {
   return [channels](const std::string& file, const std::vector<std::string>& overrides,
                     transport::Bus& bus) {
-    const auto config = config::Load<Config>(config::FindConfig(file), overrides);
+    auto config = config::Load<Config>(config::FindConfig(file), overrides);
+    SuitLog(config);
     return std::make_unique<Hosted<Service, Config>>(config, channels, bus);
   };
 }
 
+enum class Hosting { kByDefault, kWhenNamed };
+
 struct Entry {
   std::string name;
   Maker make;
+  Hosting hosting = Hosting::kByDefault;
 };
 
 const std::vector<Entry>& Entries() {
@@ -64,6 +82,12 @@ const std::vector<Entry>& Entries() {
            [](const GestureRecogniserServiceConfig& config) {
              return std::vector<std::string>{config.state_channel, config.gestures_channel};
            })},
+      {"stereo_driver",
+       MakerOf<StereoDriverService, StereoDriverServiceConfig>(
+           [](const StereoDriverServiceConfig& config) {
+             return std::vector<std::string>{config.calibration_channel, config.stereo_channel};
+           }),
+       Hosting::kWhenNamed},
   };
   return entries;
 }
@@ -73,6 +97,14 @@ const std::vector<Entry>& Entries() {
 std::vector<std::string> KnownServices() {
   std::vector<std::string> names;
   for (const Entry& entry : Entries()) names.push_back(entry.name);
+  return names;
+}
+
+std::vector<std::string> DefaultServices() {
+  std::vector<std::string> names;
+  for (const Entry& entry : Entries()) {
+    if (entry.hosting == Hosting::kByDefault) names.push_back(entry.name);
+  }
   return names;
 }
 

@@ -17,6 +17,8 @@ struct Configuration {
 
 /// The services that can be hosted, in the order in which data flows.
 std::vector<std::string> KnownServices();
+/// Those that a run hosts when none are named.
+std::vector<std::string> DefaultServices();
 
 /// Makes service `name` on `bus`. Throws config::ConfigError for an unknown name or a wrong file.
 std::unique_ptr<HostedService> MakeService(const std::string& name,

@@ -9,6 +9,7 @@
 #include "services/gesture_recogniser/gesture_recogniser_service.h"
 #include "services/hand_tracker/hand_tracker_service.h"
 #include "services/object_detector/object_detector_service.h"
+#include "services/stereo_driver/stereo_driver_service.h"
 #include "services/viewer/viewer_service.h"
 
 namespace deixis {
@@ -70,6 +71,10 @@ void ExpectDefaults(const std::string& name) {
     EXPECT_EQ(value, defaults.at(key)) << key;
   }
   EXPECT_EQ(shipped.size(), defaults.size());
+}
+
+TEST(ShippedConfig, StereoDriver) {
+  ExpectDefaults<stereo_driver::StereoDriverServiceConfig>("stereo_driver.yaml");
 }
 
 TEST(ShippedConfig, CameraDriver) {

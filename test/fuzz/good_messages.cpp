@@ -10,7 +10,11 @@
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
 #include "common/messages/objects.h"
+#include "common/messages/rgbd_image.h"
 #include "common/messages/service_status.h"
+#include "common/messages/stereo_calibration.h"
+#include "common/messages/stereo_image.h"
+#include "common/messages/stereo_pair.h"
 #include "common/messages/wire.h"
 
 namespace deixis::fuzz {
@@ -137,6 +141,26 @@ geometry::CameraCalibration Lens(Timestamp time) {
   return calibration;
 }
 
+cv::Mat Depth() { return {kHeight_px, kWidth_px, CV_16UC1, cv::Scalar(1500)}; }
+
+images::EncodedImage Encoded(Timestamp time) {
+  return {time, "STEREO", kWidth_px, kHeight_px, Jpeg()};
+}
+
+images::RgbdImage Rgbd(Timestamp time) {
+  return {{time, "kinect", Picture()}, {time, "kinect", Depth()}};
+}
+
+geometry::StereoCalibration Rig(Timestamp time) {
+  geometry::StereoCalibration rig;
+  rig.time = time;
+  rig.camera = "STEREO";
+  rig.left = rig.right = rig.rectified = Lens(time);
+  rig.right_from_left.translation_m.x() = -0.12;
+  rig.disparity_sigma_px = 0.2;
+  return rig;
+}
+
 messages::ServiceStatus Status(Timestamp time) {
   messages::ServiceStatus status;
   status.time = time;
@@ -163,6 +187,10 @@ std::vector<GoodMessage> GoodMessages(std::int64_t utime_us) {
       {"picture_bgr", "CAMERA", raw(image_t::PIXEL_FORMAT_BGR, 3)},
       {"picture_rgb", "CAMERA", raw(image_t::PIXEL_FORMAT_RGB, 3)},
       {"picture_stereo", "CAMERA", messages::EncodeWire(Stereo(utime_us))},
+      Of("stereo", "STEREO", images::StereoImage{Encoded(time), Depth()}),
+      Of("stereo_pair", "STEREO_PAIR", images::EncodedStereoPair{Encoded(time), Encoded(time)}),
+      Of("stereo_calibration", "STEREO_CALIBRATION", Rig(time)),
+      Of("kinect", "KINECT_FRAME", Rgbd(time)),
       Of("hands", "HAND_TRACKS", OneHand(time)),
       Of("gesture_state", "GESTURE_STATE", State(time)),
       Of("gesture", "GESTURES", Pointing(time)),

@@ -7,6 +7,7 @@
 #include "services/gesture_recogniser/gesture_recogniser_service.h"
 #include "services/hand_tracker/hand_tracker_service.h"
 #include "services/object_detector/object_detector_service.h"
+#include "services/stereo_driver/stereo_driver_service.h"
 #include "services/viewer/viewer_service.h"
 #include "test/fuzz/good_messages.h"
 #include "test/support/memory_bus.h"
@@ -45,6 +46,8 @@ HostedServices::HostedServices() : bus_(test::Memory()) {
       gesture_recogniser::GestureRecogniserServiceConfig>("gesture_recogniser.yaml");
   Add<viewer::ViewerService, viewer::ViewerServiceConfig>(
       "viewer.yaml", {"save_folder=" + folder_.path().string(), "latest_period_s=0.1"});
+  Add<stereo_driver::StereoDriverService, stereo_driver::StereoDriverServiceConfig>(
+      "stereo_driver.yaml", {"source.kind=kinect_channel"});
 
   std::set<std::string> heard;
   for (const auto& channel : bus_.statistics()) heard.insert(channel.channel);

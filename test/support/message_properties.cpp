@@ -10,7 +10,11 @@
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
 #include "common/messages/objects.h"
+#include "common/messages/rgbd_image.h"
 #include "common/messages/service_status.h"
+#include "common/messages/stereo_calibration.h"
+#include "common/messages/stereo_image.h"
+#include "common/messages/stereo_pair.h"
 #include "common/messages/wire.h"
 #include "test/support/allocation_count.h"
 
@@ -61,6 +65,11 @@ void RequireSoundCodecs(Bytes bytes) {
   RequireSoundCodec<images::EncodedImage, bot_core::image_t>(bytes);
   RequireSoundCodec<images::Image, bot_core::image_t, bot_core::images_t>(bytes);
   RequireSoundCodec<scene::Objects, objects_t>(bytes);
+  RequireSoundCodec<images::StereoImage, bot_core::images_t>(bytes);
+  RequireSoundCodec<images::StereoPair, bot_core::images_t>(bytes);
+  RequireSoundCodec<images::EncodedStereoPair, bot_core::images_t>(bytes);
+  RequireSoundCodec<images::RgbdImage, kinect::frame_msg_t>(bytes);
+  RequireSoundCodec<geometry::StereoCalibration, stereo_calibration_t>(bytes);
   RequireSoundCodec<messages::ServiceStatus, service_status_t>(bytes);
 }
 

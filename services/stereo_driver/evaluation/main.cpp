@@ -13,6 +13,7 @@
 #include "services/stereo_driver/evaluation/error_picture.h"
 #include "services/stereo_driver/evaluation/plain_opencv.h"
 #include "services/stereo_driver/evaluation/rendered_truth.h"
+#include "services/stereo_driver/stereo_driver_service.h"
 
 namespace deixis::stereo_driver {
 namespace {
@@ -27,17 +28,6 @@ struct Arguments {
   fs::path pictures;
   int every = 1;
   int threads = 1;
-};
-
-/// The parts of the service's configuration that are measured.
-struct EvaluationConfig {
-  RigCalibrationConfig calibration;
-  StereoMatcherConfig matcher;
-  template <typename Visitor>
-  void Visit(Visitor& v) {
-    v("calibration", calibration);
-    v("matcher", matcher);
-  }
 };
 
 Arguments Parse(int argc, char** argv) {
@@ -94,15 +84,16 @@ geometry::StereoCalibration CalibrationOf(const fs::path& folder, RigCalibration
   return RigCalibration(config).For(size).calibration;
 }
 
-Scores Evaluate(const fs::path& folder, const EvaluationConfig& config,
+Scores Evaluate(const fs::path& folder, const StereoDriverServiceConfig& config,
                 const Arguments& arguments) {
   RenderedSequence sequence(folder, arguments.every);
   auto frame = sequence.Next();
-  const auto calibration = CalibrationOf(folder, config.calibration, frame->pair.left.bgr.size());
-  StereoMatcher matcher(config.matcher, calibration);
+  const auto calibration =
+      CalibrationOf(folder, config.driver.calibration, frame->pair.left.bgr.size());
+  StereoMatcher matcher(config.driver.matcher, calibration);
   const int full_disparities =
-      matcher.num_disparities() * (config.matcher.match_size == Size::kHalf ? 2 : 1);
-  PlainOpenCv plain(calibration, config.matcher.disparity.method, full_disparities);
+      matcher.num_disparities() * (config.driver.matcher.match_size == Size::kHalf ? 2 : 1);
+  PlainOpenCv plain(calibration, config.driver.matcher.disparity.method, full_disparities);
   const RenderedTruth truth(calibration);
   const RenderedTruth plain_truth(plain.calibration());
   Scores scores;
@@ -145,7 +136,8 @@ void RunAll(const Arguments& arguments) {
   cv::setNumThreads(arguments.threads);
   const std::string file =
       arguments.config_file.empty() ? "stereo_driver.yaml" : arguments.config_file;
-  const auto config = config::Load<EvaluationConfig>(config::FindConfig(file), arguments.overrides);
+  const auto config =
+      config::Load<StereoDriverServiceConfig>(config::FindConfig(file), arguments.overrides);
   if (arguments.sequences.empty() && arguments.pairs.empty()) {
     throw config::ConfigError("nothing to measure; give --sequence or --pair");
   }
@@ -159,7 +151,7 @@ void RunAll(const Arguments& arguments) {
   if (!arguments.sequences.empty()) all.Print("all");
   for (const std::string& text : arguments.pairs) {
     const DisparityPair pair = ReadPair(text);
-    Evaluate(pair, config.matcher).Print(pair.name);
+    Evaluate(pair, config.driver.matcher).Print(pair.name);
   }
 }
 

@@ -128,7 +128,7 @@ TEST_F(CameraDriverServiceTest, NamesEveryFaultOfItsConfiguration) {
 TEST(PlayingClock, GoesOnEvenlyWhenTheWallClockIsSet) {
   std::int64_t wall_us = 5'000'000;
   std::int64_t monotonic_us = 100;
-  const PlayingClock clock(
+  const capture::PlayingClock clock(
       {[&] { return Timestamp{wall_us}; }, [&] { return Timestamp{monotonic_us}; }});
   monotonic_us += 40'000;
   wall_us -= 3'600'000'000;

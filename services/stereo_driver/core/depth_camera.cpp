@@ -1,0 +1,114 @@
+#include "services/stereo_driver/core/depth_camera.h"
+
+#include <algorithm>
+#include <array>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "services/stereo_driver/core/camera_matrix.h"
+
+namespace deixis::stereo_driver {
+namespace {
+
+using geometry::CameraCalibration;
+
+// Distances of one surface within 2x2 pixels differ by less, as a share of the distance.
+constexpr double kAgreeShare = 0.03;
+
+/// Of the same view in pictures of another size.
+CameraCalibration AtSize(CameraCalibration lens, cv::Size size) {
+  const Eigen::Array2d scale(static_cast<double>(size.width) / lens.width_px,
+                             static_cast<double>(size.height) / lens.height_px);
+  lens.focal_px.array() *= scale;
+  lens.principal_point_px = ((lens.principal_point_px.array() + 0.5) * scale - 0.5).matrix();
+  lens.width_px = size.width;
+  lens.height_px = size.height;
+  return lens;
+}
+
+void MakeMaps(const CameraCalibration& lens, const CameraCalibration& rectified, int map_type,
+              cv::Mat& map_x, cv::Mat& map_y) {
+  const cv::Size size(rectified.width_px, rectified.height_px);
+  if (lens.distortion_model == geometry::DistortionModel::kFisheye) {
+    cv::fisheye::initUndistortRectifyMap(CameraMatrix(lens), lens.distortion, cv::Mat(),
+                                         CameraMatrix(rectified), size, map_type, map_x, map_y);
+  } else {
+    cv::initUndistortRectifyMap(CameraMatrix(lens), lens.distortion, cv::Mat(),
+                                CameraMatrix(rectified), size, map_type, map_x, map_y);
+  }
+}
+
+bool HasDistortion(const CameraCalibration& lens) {
+  return lens.distortion_model == geometry::DistortionModel::kFisheye ||
+         std::any_of(lens.distortion.begin(), lens.distortion.end(),
+                     [](double value) { return value != 0.0; });
+}
+
+std::uint16_t MeanOfNearest(const std::array<std::uint16_t, 4>& distances) {
+  int nearest = 0;
+  for (const int value : distances) {
+    if (value > 0 && (nearest == 0 || value < nearest)) nearest = value;
+  }
+  if (nearest == 0) return 0;
+  int sum = 0;
+  int count = 0;
+  for (const int value : distances) {
+    if (value == 0 || value > nearest * (1.0 + kAgreeShare)) continue;
+    sum += value;
+    ++count;
+  }
+  return static_cast<std::uint16_t>((2 * sum + count) / (2 * count));
+}
+
+}  // namespace
+
+void HalveDepth(const cv::Mat& depth_mm, cv::Mat& halved_mm) {
+  halved_mm.create(depth_mm.rows / 2, depth_mm.cols / 2, CV_16UC1);
+  for (int y = 0; y < halved_mm.rows; ++y) {
+    const auto* upper = depth_mm.ptr<std::uint16_t>(2 * y);
+    const auto* lower = depth_mm.ptr<std::uint16_t>(2 * y + 1);
+    auto* to = halved_mm.ptr<std::uint16_t>(y);
+    for (int x = 0; x < halved_mm.cols; ++x) {
+      const int i = 2 * x;
+      to[x] = MeanOfNearest({upper[i], upper[i + 1], lower[i], lower[i + 1]});
+    }
+  }
+}
+
+DepthCamera::DepthCamera(const geometry::StereoCalibration& calibration, Size depth_size)
+    : calibration_(calibration),
+      depth_size_(depth_size),
+      has_distortion_(HasDistortion(calibration.left)) {
+  if (calibration.left.width_px <= 0 || calibration.left.height_px <= 0) {
+    throw std::logic_error("DepthCamera: the calibration has no size");
+  }
+  if (!has_distortion_) return;
+  MakeMaps(calibration_.left, calibration_.rectified, CV_16SC2, colour_map_x_, colour_map_y_);
+}
+
+const RectifiedDepth& DepthCamera::Rectify(const images::RgbdImage& image) {
+  result_ = {image.colour.bgr, image.depth.depth_mm};
+  if (has_distortion_) {
+    cv::remap(image.colour.bgr, rectified_bgr_, colour_map_x_, colour_map_y_, cv::INTER_LINEAR);
+    PrepareDepthMaps(image.depth.depth_mm.size());
+    // Never a mean: between a body and what lies behind it is nothing.
+    cv::remap(image.depth.depth_mm, rectified_mm_, depth_map_x_, depth_map_y_, cv::INTER_NEAREST);
+    result_ = {rectified_bgr_, rectified_mm_};
+  }
+  const bool is_large = result_.depth_mm.cols >= result_.left_bgr.cols;
+  if (depth_size_ == Size::kHalf && is_large) {
+    HalveDepth(result_.depth_mm, halved_mm_);
+    result_.depth_mm = halved_mm_;
+  }
+  return result_;
+}
+
+void DepthCamera::PrepareDepthMaps(cv::Size size) {
+  if (size == depth_map_size_) return;
+  MakeMaps(AtSize(calibration_.left, size), AtSize(calibration_.rectified, size), CV_32FC1,
+           depth_map_x_, depth_map_y_);
+  depth_map_size_ = size;
+}
+
+}  // namespace deixis::stereo_driver

@@ -1,0 +1,189 @@
+#include "services/stereo_driver/core/stereo_driver.h"
+
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
+
+#include "common/capture/picture_encoder.h"
+#include "common/config/plain_text.h"
+
+namespace deixis::stereo_driver {
+namespace {
+
+using capture::SourceState;
+
+constexpr double kCalibrationPeriod_s = 1.0;
+constexpr double kLargestDepthSigma_m = 1.0;
+
+bool MeasuresDepth(FrameSourceKind kind) {
+  return kind == FrameSourceKind::kColourAndDepth || kind == FrameSourceKind::kKinectChannel;
+}
+
+images::EncodedImage Encoded(const cv::Mat& bgr, Timestamp time, const std::string& camera,
+                             int jpeg_quality) {
+  capture::Picture picture;
+  picture.bgr = bgr;
+  capture::EncodingConfig config;
+  config.jpeg_quality = jpeg_quality;
+  return capture::Encode(picture, time, camera, config);
+}
+
+images::EncodedStereoPair Encoded(const images::StereoPair& pair,
+                                  const StereoDriverConfig& config) {
+  const int quality = config.pair_jpeg_quality;
+  const Timestamp time = pair.left.time;
+  return {Encoded(pair.left.bgr, time, config.camera + ".left", quality),
+          Encoded(pair.right.bgr, time, config.camera + ".right", quality)};
+}
+
+void SetTime(Timestamp time, Frame& frame) {
+  if (auto* pair = std::get_if<images::StereoPair>(&frame.images)) {
+    pair->left.time = pair->right.time = time;
+  } else {
+    auto& image = std::get<images::RgbdImage>(frame.images);
+    image.colour.time = image.depth.time = time;
+  }
+}
+
+/// A depth camera, said as a pair of cameras: both are the colour camera.
+geometry::StereoCalibration AsStereo(const geometry::CameraCalibration& lens, double sigma_m) {
+  geometry::StereoCalibration calibration;
+  calibration.left = calibration.right = calibration.rectified = lens;
+  calibration.rectified.distortion_model = geometry::DistortionModel::kNone;
+  calibration.rectified.distortion.clear();
+  calibration.depth_sigma_m_at_1m = sigma_m;
+  return calibration;
+}
+
+void Stamp(Timestamp time, const std::string& camera, geometry::StereoCalibration& calibration) {
+  calibration.time = calibration.left.time = calibration.right.time = calibration.rectified.time =
+      time;
+  calibration.camera = calibration.rectified.camera = camera;
+  calibration.left.camera = camera + ".left";
+  calibration.right.camera = camera + ".right";
+}
+
+bool IsOfSize(const geometry::StereoCalibration& calibration, cv::Size size) {
+  return calibration.left.width_px == size.width && calibration.left.height_px == size.height;
+}
+
+}  // namespace
+
+void DepthCameraConfig::Validate() const {
+  config::Faults faults;
+  faults.Require(depth_sigma_m_at_1m >= 0.0 && depth_sigma_m_at_1m <= kLargestDepthSigma_m,
+                 "depth_sigma_m_at_1m", "must lie in 0..1 metres");
+  calibration.Check(faults);
+  faults.ThrowIfAny();
+}
+
+void StereoDriverConfig::Check(config::Faults& faults) const {
+  faults.Require(config::IsPlainText(camera), "camera", config::kPlainTextRule);
+  faults.Require(start_time_utime >= -1 && start_time_utime <= capture::kLatestTime.microseconds,
+                 "start_time_utime",
+                 "must be -1 (chosen by the pace) or a time in microseconds, 2^59 at most");
+  source.Check(faults);
+  faults.Require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", "must lie in 1..100");
+  faults.Require(pair_jpeg_quality >= 1 && pair_jpeg_quality <= 100, "pair_jpeg_quality",
+                 "must lie in 1..100");
+}
+
+StereoDriver::StereoDriver(const StereoDriverConfig& config, std::unique_ptr<FrameSource> source,
+                           KeepPairs keep_pairs)
+    : config_(config),
+      source_(std::move(source)),
+      keep_pairs_(keep_pairs),
+      pacer_(config.pace, config.start_time_utime) {
+  if (source_) is_live_ = source_->status().pictures.is_live;
+  if (MeasuresDepth(config.source.kind)) {
+    lens_.emplace(config.depth_camera.calibration);
+  } else {
+    rig_.emplace(config.calibration);
+  }
+}
+
+StereoStep StereoDriver::Next(Timestamp now) {
+  StereoStep step;
+  if (!source_) return step;
+  step.state = Fetch();
+  if (!waiting_) return step;
+  if (!IsDue(now)) {
+    step.state = SourceState::kWaiting;
+    return step;
+  }
+  const Timestamp time = is_live_ ? waiting_->time : pacer_.CaptureTime(waiting_->time);
+  step.output = ConvertAt(time, std::move(*waiting_));
+  waiting_.reset();
+  return step;
+}
+
+SourceState StereoDriver::Fetch() {
+  if (waiting_) return SourceState::kPicture;
+  FrameGrab grab = source_->Next();
+  waiting_ = std::move(grab.frame);
+  return grab.state;
+}
+
+bool StereoDriver::IsDue(Timestamp now) { return is_live_ || pacer_.IsDue(waiting_->time, now); }
+
+StereoOutput StereoDriver::ConvertAt(Timestamp time, Frame frame) {
+  SetTime(time, frame);
+  return std::visit([this](const auto& images) { return Convert(images); }, frame.images);
+}
+
+StereoOutput StereoDriver::Convert(const images::StereoPair& pair) {
+  PrepareRig(pair.left.bgr.size());
+  StereoOutput output = Packed(matcher_->Measure(pair), pair.left.time);
+  if (keep_pairs_ == KeepPairs::kYes) output.pair = Encoded(pair, config_);
+  return output;
+}
+
+StereoOutput StereoDriver::Convert(const images::RgbdImage& image) {
+  PrepareDepthCamera(image.colour.bgr.size());
+  return Packed(depth_camera_->Rectify(image), image.colour.time);
+}
+
+void StereoDriver::PrepareRig(cv::Size size) {
+  if (matcher_ && IsOfSize(calibration_, size)) return;
+  auto [calibration, remark] = rig_->For(size);
+  matcher_.emplace(config_.matcher, calibration);
+  calibration_ = std::move(calibration);
+  remark_ = std::move(remark);
+  calibration_sent_.reset();
+}
+
+void StereoDriver::PrepareDepthCamera(cv::Size size) {
+  if (depth_camera_ && IsOfSize(calibration_, size)) return;
+  auto [lens, remark] = lens_->For(size);
+  calibration_ = AsStereo(lens, config_.depth_camera.depth_sigma_m_at_1m);
+  depth_camera_.emplace(calibration_, config_.matcher.depth_size);
+  remark_ = std::move(remark);
+  calibration_sent_.reset();
+}
+
+StereoOutput StereoDriver::Packed(const RectifiedDepth& depth, Timestamp time) {
+  StereoOutput output;
+  output.calibration = CalibrationIfDue(time);
+  output.stereo.left = Encoded(depth.left_bgr, time, config_.camera, config_.jpeg_quality);
+  output.stereo.depth_mm = depth.depth_mm;
+  return output;
+}
+
+std::optional<geometry::StereoCalibration> StereoDriver::CalibrationIfDue(Timestamp time) {
+  // The absolute value, so that a clock that was set back does not silence the calibration.
+  const bool is_recent = calibration_sent_ &&
+                         std::abs(SecondsBetween(*calibration_sent_, time)) < kCalibrationPeriod_s;
+  if (is_recent) return std::nullopt;
+  Stamp(time, config_.camera, calibration_);
+  calibration_sent_ = time;
+  return calibration_;
+}
+
+FrameSourceStatus StereoDriver::status() const {
+  if (source_) return source_->status();
+  FrameSourceStatus status;
+  status.pictures.is_live = true;
+  return status;
+}
+
+}  // namespace deixis::stereo_driver

@@ -1,0 +1,124 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/capture/calibration.h"
+#include "common/capture/pacer.h"
+#include "common/images/stereo_image.h"
+#include "services/stereo_driver/core/depth_camera.h"
+#include "services/stereo_driver/core/rig_calibration.h"
+#include "services/stereo_driver/core/sources/sources.h"
+#include "services/stereo_driver/core/stereo_matcher.h"
+
+namespace deixis::stereo_driver {
+
+/// Of a Kinect's colour camera.
+inline capture::CalibrationConfig DepthCameraLensDefaults() {
+  capture::CalibrationConfig config;
+  config.horizontal_fov_deg = 57.0;
+  return config;
+}
+
+struct DepthCameraConfig {
+  capture::CalibrationConfig calibration = DepthCameraLensDefaults();  ///< The colour lens.
+  double depth_sigma_m_at_1m = 0.003;  ///< Error of a distance at 1 m; grows with its square.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("calibration", calibration);
+    v("depth_sigma_m_at_1m", depth_sigma_m_at_1m);
+  }
+  void Validate() const;  ///< Throws FaultsFound.
+};
+
+struct StereoDriverConfig {
+  std::string camera = "STEREO";                ///< Name of the published picture in all messages.
+  FrameSourceConfig source;                     ///< Where pairs, or colour and depth, come from.
+  capture::Pace pace = capture::Pace::kByTime;  ///< How fast recordings are played.
+  std::int64_t start_time_utime = -1;           ///< Recordings: see capture::Pacer.
+  RigCalibrationConfig calibration;             ///< What is known of two cameras.
+  StereoMatcherConfig matcher;                  ///< How pairs become depth.
+  DepthCameraConfig depth_camera;  ///< What is known of a camera that measures depth itself.
+  int jpeg_quality = 85;           ///< Of the published left picture, 1..100.
+  int pair_jpeg_quality = 95;  ///< Of published pairs: matching again wants what was lost least.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("camera", camera);
+    v("source", source);
+    v("pace", pace);
+    v("start_time_utime", start_time_utime);
+    v("calibration", calibration);
+    v("matcher", matcher);
+    v("depth_camera", depth_camera);
+    v("jpeg_quality", jpeg_quality);
+    v("pair_jpeg_quality", pair_jpeg_quality);
+  }
+  void Check(config::Faults& faults) const;
+};
+
+/// What one frame has become.
+struct StereoOutput {
+  std::optional<geometry::StereoCalibration> calibration;  ///< To be published before the picture.
+  std::optional<images::EncodedStereoPair> pair;           ///< As taken, when it was asked for.
+  images::StereoImage stereo;
+};
+
+/// What one step of the driver has brought.
+struct StereoStep {
+  capture::SourceState state = capture::SourceState::kWaiting;
+  std::optional<StereoOutput> output;  ///< Set with kPicture only.
+};
+
+/// Whether the pair as taken goes out beside the depth.
+enum class KeepPairs { kNo, kYes };
+
+/// Turns frames of a source, or of others, into rectified picture and depth with their calibration:
+/// the calibration before the first one, once per second of picture time, and when the size
+/// changes.
+class StereoDriver {
+ public:
+  /// `source` may be nullptr: frames then come by Convert(). Reads the calibration files that its
+  /// kind of frames needs; throws ConfigError.
+  StereoDriver(const StereoDriverConfig& config, std::unique_ptr<FrameSource> source,
+               KeepPairs keep_pairs);
+
+  /// The next frame that is due at `now` (wall clock); never waits for a camera. Throws ConfigError
+  /// when the calibration does not suit the pictures.
+  StereoStep Next(Timestamp now);
+
+  StereoOutput Convert(const images::StereoPair& pair);
+  StereoOutput Convert(const images::RgbdImage& image);
+
+  FrameSourceStatus status() const;
+  /// What has to be known about the calibration; empty before the first frame and when it is as in
+  /// its files.
+  const std::string& calibration_remark() const { return remark_; }
+
+ private:
+  capture::SourceState Fetch();
+  bool IsDue(Timestamp now);
+  StereoOutput ConvertAt(Timestamp time, Frame frame);
+  void PrepareRig(cv::Size size);
+  void PrepareDepthCamera(cv::Size size);
+  StereoOutput Packed(const RectifiedDepth& depth, Timestamp time);
+  std::optional<geometry::StereoCalibration> CalibrationIfDue(Timestamp time);
+
+  StereoDriverConfig config_;
+  std::unique_ptr<FrameSource> source_;
+  KeepPairs keep_pairs_;
+  capture::Pacer pacer_;
+  bool is_live_ = true;
+  std::optional<Frame> waiting_;  ///< Recorded frame whose time has not come.
+
+  std::optional<RigCalibration> rig_;         ///< For pairs.
+  std::optional<capture::Calibration> lens_;  ///< For colour and depth.
+  geometry::StereoCalibration calibration_;   ///< Of the frames that come now.
+  std::string remark_;
+  std::optional<StereoMatcher> matcher_;
+  std::optional<DepthCamera> depth_camera_;
+  std::optional<Timestamp> calibration_sent_;
+};
+
+}  // namespace deixis::stereo_driver

@@ -1,0 +1,139 @@
+#include "services/stereo_driver/stereo_driver_service.h"
+
+#include <opencv2/core/utils/logger.hpp>
+
+#include "common/capture/system_clocks.h"
+#include "common/logging/log.h"
+#include "common/messages/rgbd_image.h"
+#include "common/messages/stereo_calibration.h"
+#include "common/messages/stereo_image.h"
+#include "common/messages/stereo_pair.h"
+#include "common/program/source_step.h"
+#include "common/transport/channel_name.h"
+
+namespace deixis::stereo_driver {
+namespace {
+
+using transport::Delivery;
+
+// OpenCV would say a page on every way in which it failed to open something; ours is one line.
+std::unique_ptr<FrameSource> OpenQuietly(const FrameSourceConfig& config) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  return MakeFrameSource(config, capture::SystemClocks());
+}
+
+void Append(const std::string& part, std::string& text) {
+  if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+}
+
+void AppendCount(std::int64_t count, const std::string& what, std::string& text) {
+  if (count > 0) Append(std::to_string(count) + " " + what, text);
+}
+
+std::int64_t Lost(const FrameSourceStatus& status) {
+  return status.pictures.corrupt + status.unmatched_left + status.unmatched_right + status.unusable;
+}
+
+KeepPairs WhatToKeep(const StereoDriverServiceConfig& config) {
+  return config.publishes_pairs ? KeepPairs::kYes : KeepPairs::kNo;
+}
+
+}  // namespace
+
+void StereoDriverServiceConfig::Validate() const {
+  config::Faults faults;
+  const auto channel_faults =
+      transport::ChannelFaults({{"stereo_channel", stereo_channel},
+                                {"calibration_channel", calibration_channel},
+                                {"pair_channel", pair_channel},
+                                {"kinect_channel", kinect_channel}});
+  for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
+  faults.Require(!publishes_pairs || driver.source.kind != FrameSourceKind::kPairChannel,
+                 "publishes_pairs", "must be false when the pairs come from pair_channel");
+  driver.Check(faults);
+  faults.ThrowIfAny();
+}
+
+StereoDriverService::StereoDriverService(const StereoDriverServiceConfig& config,
+                                         transport::Bus& input, transport::Bus& output)
+    : config_(config),
+      output_(output),
+      clock_(capture::SystemClocks()),
+      driver_(config.driver, OpenQuietly(config.driver.source), WhatToKeep(config)) {
+  Listen(input);
+}
+
+void StereoDriverService::Listen(transport::Bus& input) {
+  if (config_.driver.source.kind == FrameSourceKind::kPairChannel) {
+    input.Subscribe<images::StereoPair>(
+        config_.pair_channel, Delivery::kLatest,
+        [this](const images::StereoPair& pair) { Publish(driver_.Convert(pair)); });
+  }
+  if (config_.driver.source.kind == FrameSourceKind::kKinectChannel) {
+    input.Subscribe<images::RgbdImage>(
+        config_.kinect_channel, Delivery::kLatest,
+        [this](const images::RgbdImage& image) { Publish(driver_.Convert(image)); });
+  }
+}
+
+program::StepResult StereoDriverService::Step() {
+  const StereoStep step = driver_.Next(clock_.Now());
+  if (step.output) Publish(*step.output);
+  LogNews();
+  if (step.state == capture::SourceState::kFinished) LogSummary();
+  return program::ResultOf(step.state);
+}
+
+void StereoDriverService::Publish(const StereoOutput& output) {
+  if (output.calibration) output_.Publish(config_.calibration_channel, *output.calibration);
+  if (output.pair) output_.Publish(config_.pair_channel, *output.pair);
+  output_.Publish(config_.stereo_channel, output.stereo);
+  ++published_;
+}
+
+void StereoDriverService::LogSummary() const {
+  const FrameSourceStatus status = driver_.status();
+  if (published_ == 0) {
+    throw config::ConfigError("no frame of source.left '" + config_.driver.source.left.path +
+                              "' and source.right '" + config_.driver.source.right.path +
+                              "' can be used (" + std::to_string(Lost(status)) +
+                              " pictures tried); do they belong together in time and size?");
+  }
+  if (Lost(status) == 0) {
+    logging::Info("recording_finished", {{"published", published_}});
+    return;
+  }
+  logging::Warn("recording_finished", {{"published", published_},
+                                       {"unreadable", status.pictures.corrupt},
+                                       {"last_unreadable", status.pictures.last_corrupt},
+                                       {"unmatched_left", status.unmatched_left},
+                                       {"unmatched_right", status.unmatched_right},
+                                       {"unusable", status.unusable}});
+}
+
+void StereoDriverService::LogNews() {
+  const std::string& remark = driver_.calibration_remark();
+  if (remark != logged_remark_) logging::Info("calibration", {{"remark", remark}});
+  logged_remark_ = remark;
+  const std::string trouble = driver_.status().pictures.trouble;
+  if (trouble.empty() == logged_trouble_.empty()) return;
+  if (trouble.empty()) logging::Info("source_recovered");
+  if (!trouble.empty()) logging::Warn("source_lost", {{"reason", trouble}});
+  logged_trouble_ = trouble;
+}
+
+transport::Health StereoDriverService::health() const {
+  const FrameSourceStatus status = driver_.status();
+  transport::Health health;
+  health.is_degraded = !status.pictures.trouble.empty();
+  Append(status.pictures.trouble, health.text);
+  Append(driver_.calibration_remark(), health.text);
+  AppendCount(status.pictures.corrupt, "corrupt pictures", health.text);
+  AppendCount(status.pictures.skipped, "skipped pictures", health.text);
+  AppendCount(status.unmatched_left, "left pictures without a right one", health.text);
+  AppendCount(status.unmatched_right, "right pictures without a left one", health.text);
+  AppendCount(status.unusable, "pictures that make no pair", health.text);
+  return health;
+}
+
+}  // namespace deixis::stereo_driver

@@ -1,0 +1,59 @@
+#pragma once
+#include <string>
+
+#include "common/capture/playing_clock.h"
+#include "common/program/service_loop.h"
+#include "common/transport/bus.h"
+#include "common/transport/status_reporter.h"
+#include "services/stereo_driver/core/stereo_driver.h"
+
+namespace deixis::stereo_driver {
+
+struct StereoDriverServiceConfig {
+  std::string stereo_channel = "STEREO";                   ///< Pictures with depth go here.
+  std::string calibration_channel = "STEREO_CALIBRATION";  ///< What is known of the cameras.
+  std::string pair_channel = "STEREO_PAIR";     ///< Pairs as taken: to here, or from here.
+  std::string kinect_channel = "KINECT_FRAME";  ///< source.kind kinect_channel: from here.
+  bool publishes_pairs = false;                 ///< Pairs go out too, so that a log can keep them.
+  StereoDriverConfig driver;
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("stereo_channel", stereo_channel);
+    v("calibration_channel", calibration_channel);
+    v("pair_channel", pair_channel);
+    v("kinect_channel", kinect_channel);
+    v("publishes_pairs", publishes_pairs);
+    driver.Visit(v);  // On the same level: `source.kind`, not `driver.source.kind`.
+  }
+  void Validate() const;
+};
+
+/// Publishes pictures with the depth of the same view, and what they were measured with.
+class StereoDriverService {
+ public:
+  /// Opens the cameras or recordings, or listens for pairs or depth frames on `input`. Throws
+  /// ConfigError when a source or a calibration is not there.
+  StereoDriverService(const StereoDriverServiceConfig& config, transport::Bus& input,
+                      transport::Bus& output);
+
+  /// Throws ConfigError at the end of a recording that gave no frame.
+  program::StepResult Step();
+  transport::Health health() const;
+
+ private:
+  void Listen(transport::Bus& input);
+  void Publish(const StereoOutput& output);
+  void LogNews();
+  void LogSummary() const;
+
+  StereoDriverServiceConfig config_;
+  transport::Bus& output_;
+  capture::PlayingClock clock_;
+  StereoDriver driver_;
+  std::int64_t published_ = 0;  ///< Frames.
+  std::string logged_remark_;
+  std::string logged_trouble_;
+};
+
+}  // namespace deixis::stereo_driver

@@ -1,0 +1,187 @@
+#include "services/stereo_driver/stereo_driver_service.h"
+
+#include <gmock/gmock.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/messages/rgbd_image.h"
+#include "common/messages/stereo_calibration.h"
+#include "common/messages/stereo_image.h"
+#include "common/messages/stereo_pair.h"
+#include "test/services/stereo_driver/synthetic_rig.h"
+#include "test/support/memory_bus.h"
+#include "test/support/temporary_folder.h"
+
+namespace deixis::stereo_driver {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Five ways to the same: one pair of a plane, whatever way it comes, ends on STEREO.
+class StereoDriverServiceTest : public testing::Test {
+ protected:
+  StereoDriverServiceTest() : pair_(Photograph(SyntheticRig(), Plane{})) {
+    const geometry::StereoCalibration rig = SyntheticRig();
+    StereoDriverConfig& driver = config_.driver;
+    driver.calibration.intrinsics = folder_.Write("in.yml", IntrinsicsText(rig)).string();
+    driver.calibration.extrinsics = folder_.Write("ex.yml", ExtrinsicsText(rig)).string();
+    driver.pace = capture::Pace::kAsFastAsPossible;
+    pair_.left.time = pair_.right.time = {0};
+    bus_.Subscribe<images::StereoImage>(
+        "STEREO", transport::Delivery::kEvery,
+        [this](const images::StereoImage& stereo) { received_.push_back(stereo); });
+  }
+
+  void UseFolders(FrameSourceKind kind) {
+    config_.driver.source.kind = kind;
+    for (auto* source : {&config_.driver.source.left, &config_.driver.source.right}) {
+      source->kind = capture::SourceKind::kFolder;
+      source->path = folder_.path().string();
+      source->rate_hz = 10.0;
+    }
+    config_.driver.source.left.pattern = "left*.png";
+    config_.driver.source.right.pattern = "right*.png";
+  }
+  void Write(const std::string& name, const cv::Mat& picture) const {
+    ASSERT_TRUE(cv::imwrite((folder_.path() / name).string(), picture));
+  }
+  void RunToTheEnd() {
+    StereoDriverService service(config_, bus_, bus_);
+    while (service.Step() != program::StepResult::kFinished) {
+    }
+    test::HandleAll(bus_);
+  }
+  std::map<std::string, std::int64_t> DropsOn(const std::string& channel) const {
+    for (const auto& statistics : bus_.statistics()) {
+      if (statistics.channel == channel) return statistics.drops;
+    }
+    return {};
+  }
+  void ExpectThePlane(const images::StereoImage& stereo) const {
+    EXPECT_EQ(stereo.left.camera, "STEREO");
+    EXPECT_EQ(stereo.depth_mm.size(), cv::Size(160, 120));
+    EXPECT_NEAR(stereo.depth_mm.at<std::uint16_t>(60, 90), 2000, 60);
+  }
+
+  test::TemporaryFolder folder_;
+  StereoDriverServiceConfig config_;
+  images::StereoPair pair_;
+  transport::Bus bus_{test::Memory()};
+  std::vector<images::StereoImage> received_;
+};
+
+TEST_F(StereoDriverServiceTest, TakesTwoRecordings) {
+  UseFolders(FrameSourceKind::kTwoCameras);
+  for (const std::string name : {"1.png", "2.png"}) {
+    Write("left" + name, pair_.left.bgr);
+    Write("right" + name, pair_.right.bgr);
+  }
+  RunToTheEnd();
+  ASSERT_EQ(received_.size(), 2u);
+  ExpectThePlane(received_[1]);
+  EXPECT_EQ(received_[1].left.time.microseconds, 100'000);
+}
+
+TEST_F(StereoDriverServiceTest, TakesOneRecordingWithBothViews) {
+  UseFolders(FrameSourceKind::kSideBySide);
+  cv::Mat both;
+  cv::hconcat(pair_.left.bgr, pair_.right.bgr, both);
+  Write("left.png", both);
+  RunToTheEnd();
+  ASSERT_EQ(received_.size(), 1u);
+  ExpectThePlane(received_[0]);
+}
+
+TEST_F(StereoDriverServiceTest, TakesFoldersOfColourAndDepth) {
+  UseFolders(FrameSourceKind::kColourAndDepth);
+  Write("left.png", pair_.left.bgr);
+  Write("right.png", cv::Mat(240, 320, CV_16UC1, cv::Scalar(2000)));
+  RunToTheEnd();
+  ASSERT_EQ(received_.size(), 1u);
+  ExpectThePlane(received_[0]);
+}
+
+TEST_F(StereoDriverServiceTest, MatchesRecordedPairsAgainToTheSame) {
+  UseFolders(FrameSourceKind::kTwoCameras);
+  Write("left.png", pair_.left.bgr);
+  Write("right.png", pair_.right.bgr);
+  RunToTheEnd();
+  config_.driver.source.kind = FrameSourceKind::kPairChannel;
+  StereoDriverService service(config_, bus_, bus_);
+  bus_.Publish("STEREO_PAIR", pair_);
+  test::HandleAll(bus_);
+  ASSERT_EQ(received_.size(), 2u);
+  ExpectThePlane(received_[1]);
+  EXPECT_EQ(cv::norm(received_[0].depth_mm, received_[1].depth_mm, cv::NORM_INF), 0.0);
+  EXPECT_EQ(received_[0].left.jpeg, received_[1].left.jpeg);
+}
+
+TEST_F(StereoDriverServiceTest, TakesAKinectsFrames) {
+  config_.driver.source.kind = FrameSourceKind::kKinectChannel;
+  StereoDriverService service(config_, bus_, bus_);
+  bus_.Publish("KINECT_FRAME",
+               images::RgbdImage{{{5}, "", pair_.left.bgr},
+                                 {{5}, "", cv::Mat(240, 320, CV_16UC1, cv::Scalar(2000))}});
+  test::HandleAll(bus_);
+  ASSERT_EQ(received_.size(), 1u);
+  ExpectThePlane(received_[0]);
+  EXPECT_EQ(received_[0].left.time.microseconds, 5);
+}
+
+TEST_F(StereoDriverServiceTest, PublishesCalibrationThenPairThenDepth) {
+  UseFolders(FrameSourceKind::kTwoCameras);
+  Write("left.png", pair_.left.bgr);
+  Write("right.png", pair_.right.bgr);
+  config_.publishes_pairs = true;
+  std::vector<std::string> order;
+  bus_.SubscribeRaw("STEREO.*", [&order](const transport::RawMessage& message) {
+    order.push_back(message.channel);
+  });
+  RunToTheEnd();
+  EXPECT_THAT(order, ElementsAre("STEREO_CALIBRATION", "STEREO_PAIR", "STEREO"));
+}
+
+TEST_F(StereoDriverServiceTest, CountsPairsThatItsCalibrationDoesNotSuitAndGoesOn) {
+  config_.driver.source.kind = FrameSourceKind::kPairChannel;
+  config_.driver.calibration.width_px = 320;
+  config_.driver.calibration.height_px = 240;
+  StereoDriverService service(config_, bus_, bus_);
+  images::StereoPair wide = pair_;
+  wide.left.bgr = wide.right.bgr = cv::Mat(120, 320, CV_8UC3, cv::Scalar(0, 0, 0));
+  bus_.Publish("STEREO_PAIR", wide);
+  test::HandleAll(bus_);
+  bus_.Publish("STEREO_PAIR", pair_);
+  test::HandleAll(bus_);
+  EXPECT_EQ(DropsOn("STEREO_PAIR")["handler_failed"], 1);
+  EXPECT_EQ(received_.size(), 1u);
+}
+
+TEST_F(StereoDriverServiceTest, SaysWhenNothingOfARecordingBelongsTogether) {
+  UseFolders(FrameSourceKind::kTwoCameras);
+  Write("left.png", pair_.left.bgr);
+  Write("right.png", cv::Mat(10, 10, CV_8UC3, cv::Scalar(0, 0, 0)));
+  EXPECT_THAT([&] { RunToTheEnd(); },
+              testing::ThrowsMessage<config::ConfigError>(HasSubstr("do they belong together")));
+}
+
+TEST_F(StereoDriverServiceTest, SaysHowManyPicturesHadNoPartner) {
+  UseFolders(FrameSourceKind::kTwoCameras);
+  Write("left1.png", pair_.left.bgr);
+  Write("left2.png", pair_.left.bgr);
+  Write("right1.png", pair_.right.bgr);
+  StereoDriverService service(config_, bus_, bus_);
+  while (service.Step() != program::StepResult::kFinished) {
+  }
+  EXPECT_THAT(service.health().text, HasSubstr("1 left pictures without a right one"));
+}
+
+TEST(StereoDriverServiceConfig, DoesNotSendPairsToItself) {
+  StereoDriverServiceConfig config;
+  config.driver.source.kind = FrameSourceKind::kPairChannel;
+  config.publishes_pairs = true;
+  EXPECT_THROW(config.Validate(), config::ConfigError);
+}
+
+}  // namespace
+}  // namespace deixis::stereo_driver

@@ -1,0 +1,145 @@
+#include "services/stereo_driver/core/stereo_driver.h"
+
+#include <gmock/gmock.h>
+
+#include <deque>
+#include <opencv2/core.hpp>
+
+#include "test/services/stereo_driver/synthetic_rig.h"
+#include "test/support/temporary_folder.h"
+
+namespace deixis::stereo_driver {
+namespace {
+
+using testing::ElementsAre;
+
+/// Gives frames at the times that it was told.
+class ScriptedFrames final : public FrameSource {
+ public:
+  ScriptedFrames(images::StereoPair pair, std::deque<std::int64_t> times_us)
+      : pair_(std::move(pair)), times_us_(std::move(times_us)) {}
+
+  FrameGrab Next() override {
+    if (times_us_.empty()) return {capture::SourceState::kFinished, std::nullopt};
+    const Timestamp time{times_us_.front()};
+    times_us_.pop_front();
+    return {capture::SourceState::kPicture, Frame{time, pair_}};
+  }
+  FrameSourceStatus status() const override { return {}; }
+
+ private:
+  images::StereoPair pair_;
+  std::deque<std::int64_t> times_us_;
+};
+
+class StereoDriverTest : public testing::Test {
+ protected:
+  StereoDriverTest() {
+    const geometry::StereoCalibration rig = SyntheticRig();
+    config_.calibration.intrinsics = folder_.Write("in.yml", IntrinsicsText(rig)).string();
+    config_.calibration.extrinsics = folder_.Write("ex.yml", ExtrinsicsText(rig)).string();
+    config_.pace = capture::Pace::kAsFastAsPossible;
+    pair_ = Photograph(rig, Plane{});
+    pair_.left.time = pair_.right.time = {5'000'000};
+  }
+
+  images::RgbdImage Rgbd(cv::Size size) const {
+    return {{{7}, "", cv::Mat(size, CV_8UC3, cv::Scalar(1, 2, 3))},
+            {{7}, "", cv::Mat(size, CV_16UC1, cv::Scalar(1500))}};
+  }
+
+  test::TemporaryFolder folder_;
+  StereoDriverConfig config_;
+  images::StereoPair pair_;
+};
+
+TEST_F(StereoDriverTest, MeasuresAPairThatOthersTook) {
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  const StereoOutput output = driver.Convert(pair_);
+  EXPECT_EQ(output.stereo.left.time.microseconds, 5'000'000);
+  EXPECT_EQ(output.stereo.left.camera, "STEREO");
+  EXPECT_EQ(output.stereo.left.width_px, 320);
+  EXPECT_EQ(output.stereo.depth_mm.size(), cv::Size(160, 120));
+  EXPECT_NEAR(output.stereo.depth_mm.at<std::uint16_t>(60, 90), 2000, 60);
+  EXPECT_FALSE(output.pair);
+}
+
+TEST_F(StereoDriverTest, KeepsThePairWhenAsked) {
+  StereoDriver driver(config_, nullptr, KeepPairs::kYes);
+  const auto output = driver.Convert(pair_);
+  ASSERT_TRUE(output.pair);
+  EXPECT_EQ(output.pair->right.camera, "STEREO.right");
+  EXPECT_EQ(output.pair->right.time.microseconds, 5'000'000);
+}
+
+TEST_F(StereoDriverTest, SaysTheCalibrationFirstAndOncePerSecondOfPictureTime) {
+  auto source = std::make_unique<ScriptedFrames>(
+      pair_, std::deque<std::int64_t>{0, 400'000, 800'000, 1'200'000, 2'100'000, 2'300'000});
+  StereoDriver driver(config_, std::move(source), KeepPairs::kNo);
+  std::vector<std::int64_t> times;
+  for (StereoStep step = driver.Next({0}); step.output; step = driver.Next({0})) {
+    if (step.output->calibration) times.push_back(step.output->calibration->time.microseconds);
+  }
+  EXPECT_THAT(times, ElementsAre(0, 1'200'000, 2'300'000));
+}
+
+TEST_F(StereoDriverTest, GivesTheCalibrationOfThePublishedPicture) {
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  const auto calibration = driver.Convert(pair_).calibration;
+  ASSERT_TRUE(calibration);
+  EXPECT_EQ(calibration->camera, "STEREO");
+  EXPECT_EQ(calibration->rectified.camera, "STEREO");
+  EXPECT_EQ(calibration->rectified.width_px, 320);
+  EXPECT_NEAR(calibration->right_from_left.translation_m.norm(), 0.12, 1e-4);
+  EXPECT_GT(calibration->disparity_sigma_px, 0.0);
+}
+
+TEST_F(StereoDriverTest, PlaysARecordingByItsTimes) {
+  config_.pace = capture::Pace::kByTime;
+  config_.start_time_utime = 1'000'000;
+  StereoDriver driver(config_,
+                      std::make_unique<ScriptedFrames>(pair_, std::deque<std::int64_t>{0, 33'000}),
+                      KeepPairs::kNo);
+  EXPECT_EQ(driver.Next({500}).output->stereo.left.time.microseconds, 1'000'000);
+  EXPECT_EQ(driver.Next({33'000}).state, capture::SourceState::kWaiting);
+  EXPECT_EQ(driver.Next({33'500}).output->stereo.left.time.microseconds, 1'033'000);
+}
+
+TEST_F(StereoDriverTest, TurnsADepthCamerasFrameIntoTheSame) {
+  config_.source.kind = FrameSourceKind::kKinectChannel;
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  const StereoOutput output = driver.Convert(Rgbd({64, 48}));
+  EXPECT_EQ(output.stereo.depth_mm.at<std::uint16_t>(10, 10), 1500);
+  ASSERT_TRUE(output.calibration);
+  EXPECT_EQ(output.calibration->disparity_sigma_px, 0.0);
+  EXPECT_EQ(output.calibration->depth_sigma_m_at_1m, 0.003);
+  EXPECT_FALSE(output.calibration->rectified.is_calibrated);
+  EXPECT_THAT(driver.calibration_remark(), testing::HasSubstr("guessed"));
+}
+
+TEST_F(StereoDriverTest, SaysTheCalibrationAnewWhenTheSizeChanges) {
+  config_.source.kind = FrameSourceKind::kKinectChannel;
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  driver.Convert(Rgbd({64, 48}));
+  EXPECT_FALSE(driver.Convert(Rgbd({64, 48})).calibration);
+  EXPECT_EQ(driver.Convert(Rgbd({128, 96})).calibration->rectified.width_px, 128);
+}
+
+TEST_F(StereoDriverTest, RefusesPairsOfAnotherAspectThanTheCalibrationAndGoesOn) {
+  config_.calibration.width_px = 320;
+  config_.calibration.height_px = 240;
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  images::StereoPair wide = pair_;
+  wide.left.bgr = wide.right.bgr = cv::Mat(120, 320, CV_8UC3, cv::Scalar(0, 0, 0));
+  EXPECT_THROW(driver.Convert(wide), config::ConfigError);
+  EXPECT_EQ(driver.Convert(pair_).stereo.left.width_px, 320);
+}
+
+TEST_F(StereoDriverTest, NamesACalibrationThatIsNotThere) {
+  config_.calibration.intrinsics = "/nowhere/intrinsics.yml";
+  EXPECT_THAT([&] { StereoDriver(config_, nullptr, KeepPairs::kNo); },
+              testing::ThrowsMessage<config::ConfigError>(testing::HasSubstr("/nowhere/")));
+}
+
+}  // namespace
+}  // namespace deixis::stereo_driver
