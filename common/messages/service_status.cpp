@@ -73,7 +73,7 @@ std::vector<std::uint8_t> Codec<ServiceStatus>::Encode(const ServiceStatus& stat
   message.pid = status.pid;
   message.version = status.version;
   message.state = Number(status.state);
-  message.text = status.text;
+  message.text = Shortened(status.text);
   for (const auto& channel : status.channels) message.channels.push_back(FromChannel(channel));
   message.n_channels = static_cast<std::int32_t>(message.channels.size());
   message.processing_ms_p50 = Outgoing(status.processing_ms_p50);

@@ -88,6 +88,15 @@ inline const std::string& Text(const std::string& text) {
   return text;
 }
 
+/// Going out: a sentence that grew too long, cut between two characters (UTF-8) and marked.
+inline std::string Shortened(const std::string& text) {
+  constexpr const char* kMark = " ...";
+  if (text.size() <= kLongestText) return text;
+  std::size_t end = kLongestText - std::char_traits<char>::length(kMark);
+  while (end > 0 && (text[end] & 0xC0) == 0x80) --end;
+  return text.substr(0, end) + kMark;
+}
+
 inline Timestamp ToTimestamp(std::int64_t utime) { return {Count(utime)}; }
 
 /// A number as an enumeration whose last value is `last`.

@@ -167,6 +167,17 @@ TEST(RoundTrip, ServiceStatus) {
   EXPECT_EQ(decoded.age_ms_p99, -1.0);
 }
 
+// What every receiver would refuse must not go out.
+TEST(Encoding, CutsAStatusTextThatGrewTooLong) {
+  ServiceStatus status;
+  for (int i = 0; i < 700; ++i) status.text += "\u00e9x";
+  const auto bytes = Codec<ServiceStatus>::Encode(status, 0);
+  const std::string text = Codec<ServiceStatus>::Decode({bytes.data(), bytes.size()}).value.text;
+  EXPECT_LE(text.size(), 1024u);
+  EXPECT_GT(text.size(), 1000u);
+  EXPECT_EQ(text.substr(text.size() - 4), " ...");
+}
+
 TEST(RoundTrip, RawImage) {
   images::Image image{kTime, "CAMERA", cv::Mat(3, 5, CV_8UC3)};
   cv::randu(image.bgr, 0, 255);

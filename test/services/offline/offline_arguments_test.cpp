@@ -33,8 +33,10 @@ TEST_F(OfflineArgumentsTest, TakesServicesAndTheirSettings) {
   EXPECT_EQ(arguments.threads, 2);
 }
 
-TEST_F(OfflineArgumentsTest, HostsAllServicesByDefault) {
-  EXPECT_EQ(Parse({}).arguments.services, KnownServices());
+TEST_F(OfflineArgumentsTest, HostsThePointingChainByDefault) {
+  EXPECT_EQ(Parse({}).arguments.services, DefaultServices());
+  EXPECT_THAT(DefaultServices(),
+              testing::ElementsAre("object_detector", "hand_tracker", "gesture_recogniser"));
 }
 
 TEST_F(OfflineArgumentsTest, RefusesNumbersOfThreadsThatNoMachineHas) {
