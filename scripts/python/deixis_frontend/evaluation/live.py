@@ -1,7 +1,8 @@
 """Runs the pointing chain live on a clip and measures what a robot would: loss, age, CPU, memory.
 
 The services run as processes of their own on a private port of this machine, the clip in a loop at the
-rate that is asked for. The figures come from their SERVICE_STATUS and from /proc.
+rate that is asked for. With --stereo the pictures are matched on the way, and the chain works on the
+left one. The figures come from their SERVICE_STATUS and from /proc.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import signal
 import subprocess
 import tempfile
 import time
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -30,10 +32,49 @@ START_UP_LIMIT_S = 20.0
 SETTLING_S = 2.5
 
 
+@dataclass(frozen=True)
+class Feed:
+    """What sends the pictures, where to, and how the others are told to look there."""
+
+    driver: str
+    channel: str
+    settings: tuple[str, ...]
+    name: str
+
+
+def camera_feed(clip: Path, rate_hz: float) -> Feed:
+    """One video in a loop."""
+    if not clip.is_file():
+        raise UserError(f"no clip {clip}: name one with --clip")
+    return Feed("camera_driver", "CAMERA", _video("source", clip, rate_hz), clip.name)
+
+
+def stereo_feed(folder: Path, rate_hz: float) -> Feed:
+    """Two videos in a loop with their calibration."""
+    for name in ("left.mp4", "right.mp4", "intrinsics.yml", "extrinsics.yml"):
+        if not (folder / name).is_file():
+            raise UserError(f"{folder} lacks {name}: --stereo takes a folder with left.mp4,"
+                            " right.mp4, intrinsics.yml and extrinsics.yml")
+    settings = (*_video("source.left", folder / "left.mp4", rate_hz),
+                *_video("source.right", folder / "right.mp4", rate_hz),
+                f"calibration.intrinsics={(folder / 'intrinsics.yml').resolve()}",
+                f"calibration.extrinsics={(folder / 'extrinsics.yml').resolve()}")
+    return Feed("stereo_driver", "STEREO", settings, folder.name)
+
+
+def _video(key: str, clip: Path, rate_hz: float) -> tuple[str, ...]:
+    return (f"{key}.kind=video", f"{key}.path={clip.resolve()}", f"{key}.loop=true",
+            f"{key}.rate_hz={rate_hz}")
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What to play, at which rate, for how long, and where the figures go."""
-    parser.add_argument("--clip", type=Path, metavar="FILE",
-                        help="video to play in a loop (default: the clip of the demo)")
+    pictures = parser.add_mutually_exclusive_group()
+    pictures.add_argument("--clip", type=Path, metavar="FILE",
+                          help="video to play in a loop (default: the clip of the demo)")
+    pictures.add_argument("--stereo", type=Path, metavar="DIR",
+                          help="folder with left.mp4, right.mp4, intrinsics.yml, extrinsics.yml:"
+                               " measure with the stereo driver")
     parser.add_argument("--rate", type=above_zero, default=30.0, help="pictures per second (30)")
     parser.add_argument("--seconds", type=above_zero, default=60.0, help="how long to measure (60)")
     report_options.add_json(parser)
@@ -44,19 +85,19 @@ def run(arguments: argparse.Namespace) -> int:
     report_options.check(arguments)
     where = layout.find()
     clip = arguments.clip or where.clips / "spread_01" / "left.mp4"
-    if not clip.is_file():
-        raise UserError(f"no clip {clip}: name one with --clip")
+    feed = (stereo_feed(arguments.stereo, arguments.rate) if arguments.stereo
+            else camera_feed(clip, arguments.rate))
     with tempfile.TemporaryDirectory() as folder:
-        chain = _Chain(where, Path(folder), lcm_url.with_free_port())
+        chain = _Chain(where, Path(folder), lcm_url.with_free_port(), feed)
         try:
             chain.start_consumers()
-            chain.start_camera(clip, arguments.rate)
+            chain.start_driver()
             services = chain.measure(arguments.seconds)
         finally:
             chain.stop()
     result = {"summary": services, "lost": services["gesture_recogniser"]["lost"],
-              "pictures": services["camera_driver"]["pictures"], "rate_hz": arguments.rate,
-              "seconds": arguments.seconds, "clip": clip.name}
+              "pictures": services[feed.driver]["pictures"], "rate_hz": arguments.rate,
+              "seconds": arguments.seconds, "clip": feed.name}
     _print(result)
     report_options.write_json(arguments, result)
     return 0
@@ -65,13 +106,15 @@ def run(arguments: argparse.Namespace) -> int:
 class _Chain:
     """The four processes and what their status messages say."""
 
-    def __init__(self, where: layout.Layout, folder: Path, url: lcm_url.LcmUrl) -> None:
+    def __init__(self, where: layout.Layout, folder: Path, url: lcm_url.LcmUrl,
+                 feed: Feed) -> None:
         where.use_types()
         from deixis import service_status_t
 
         self._where = where
         self._folder = folder
         self._url = url
+        self._feed = feed
         self._decode = Decoder(service_status_t, CHANNEL)
         self._bus = open_bus(url)
         self._bus.subscribe(CHANNEL, self._on_status)
@@ -81,14 +124,14 @@ class _Chain:
     def start_consumers(self) -> None:
         """Returns when all of them have spoken."""
         for service in CONSUMERS:
-            self._start(service)
+            looks = service != "gesture_recogniser"
+            self._start(service, *([f"image_channel={self._feed.channel}"] if looks else []))
         self._wait_for(CONSUMERS)
 
-    def start_camera(self, clip: Path, rate_hz: float) -> None:
-        """Plays the clip in a loop; returns when the camera driver has spoken."""
-        self._start("camera_driver", "source.kind=video", f"source.path={clip.resolve()}",
-                    "source.loop=true", f"source.rate_hz={rate_hz}", "pace=by_time")
-        self._wait_for(("camera_driver",))
+    def start_driver(self) -> None:
+        """Plays the pictures in a loop; returns when their driver has spoken."""
+        self._start(self._feed.driver, *self._feed.settings, "pace=by_time")
+        self._wait_for((self._feed.driver,))
 
     def measure(self, seconds: float) -> dict[str, dict[str, Any]]:
         """The figures of each service over so many seconds; stops the camera."""
@@ -99,9 +142,9 @@ class _Chain:
         load = {name: (cpu_seconds(p.pid) or 0.0) - (before[name] or 0.0)
                 for name, p in self._processes.items()}
         memory = {name: resident_bytes(p.pid) for name, p in self._processes.items()}
-        self._stop("camera_driver")
+        self._stop(self._feed.driver)
         self._listen(SETTLING_S)
-        pictures = _messages(self._facts["camera_driver"], "CAMERA", "out")
+        pictures = _messages(self._facts[self._feed.driver], self._feed.channel, "out")
         return {name: _figures(self._facts[name], name, 100.0 * load[name] / elapsed, memory[name],
                                pictures)
                 for name in self._processes}
@@ -164,7 +207,7 @@ def _messages(facts: dict[str, Any], channel: str, direction: str) -> int:
 def _figures(facts: dict[str, Any], service: str, cpu_percent: float, memory: int | None,
              pictures: int) -> dict[str, Any]:
     """The keys of one service; `lost` counts pictures without a result of this service."""
-    output = {"camera_driver": "CAMERA", "object_detector": "OBJECTS",
+    output = {"camera_driver": "CAMERA", "stereo_driver": "STEREO", "object_detector": "OBJECTS",
               "hand_tracker": "HAND_TRACKS", "gesture_recogniser": "GESTURE_STATE"}[service]
     return {
         "pictures": pictures,
