@@ -91,7 +91,7 @@ def test_status_that_is_no_number_is_still_json(status: Any) -> None:
     message.text = "\x1b[2Jgone"
     facts = as_facts(status.decode(message.encode()))
     json.dumps(facts, allow_nan=False)
-    assert facts["text"] == "?[2Jgone"
+    assert facts["text"] == "\\x1b[2Jgone"
 
 
 def test_the_demo_goes_on_after_bytes_that_are_no_gesture(

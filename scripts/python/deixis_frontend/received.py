@@ -32,7 +32,7 @@ class Decoder:
         except self._decoding.DecodeError as error:
             self.refused += 1
             if self.refused == 1:
-                self._say(f"a message on {self._channel} does not decode: {error}")
+                self._say(f"{self._channel}: {error}")
         return None
 
 

@@ -63,7 +63,7 @@ class Converter:
             yield f"/{channel}/{what}", made
 
     def _leave_out(self, channel: str, message: Any) -> None:
-        kind = "an unknown type" if isinstance(message, bytes) else type(message).__name__
+        kind = "an unknown type" if message is None else type(message).__name__
         self.left_out[f"{kind} on {channel}"] += 1
 
     def _image(self, channel: str, message: Any) -> Converted:

@@ -18,6 +18,11 @@ class EchoedLog:
         self._stream: BinaryIO | None = stream
         self._rest = b""
 
+    @property
+    def lost_bytes(self) -> int:
+        """What the log found no room for."""
+        return self._log.lost_bytes
+
     def write(self, data: bytes) -> None:
         """Appends `data`."""
         self._log.write(data)
