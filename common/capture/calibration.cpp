@@ -42,12 +42,6 @@ CameraCalibration Scaled(CameraCalibration calibration, cv::Size size) {
   return calibration;
 }
 
-bool HasSameAspect(const CameraCalibration& calibration, cv::Size size) {
-  const double ratio = static_cast<double>(size.width) * calibration.height_px /
-                       (static_cast<double>(size.height) * calibration.width_px);
-  return std::abs(ratio - 1.0) <= kAspectTolerance;
-}
-
 }  // namespace
 
 void CalibrationConfig::Check(config::Faults& faults) const {
@@ -61,6 +55,12 @@ LensFile ReadLensFile(const std::string& path) {
   lens.calibration.width_px = file.PixelCount("image_width");
   lens.calibration.height_px = file.PixelCount("image_height");
   return lens;
+}
+
+bool HasSameAspect(const CameraCalibration& calibration, cv::Size size) {
+  const double ratio = static_cast<double>(size.width) * calibration.height_px /
+                       (static_cast<double>(size.height) * calibration.width_px);
+  return std::abs(ratio - 1.0) <= kAspectTolerance;
 }
 
 CalibrationAnswer AtSize(const LensFile& lens, cv::Size size) {

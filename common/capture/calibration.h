@@ -38,6 +38,9 @@ struct CalibrationAnswer {
   std::string remark;  ///< "guessed from ...", "scaled from 640x480"; empty = as in the file.
 };
 
+/// Whether pictures of `size` can be those of the lens, made larger or smaller.
+bool HasSameAspect(const geometry::CameraCalibration& calibration, cv::Size size);
+
 /// The lens of pictures of `size`: as in the file, or scaled when they have another size of the
 /// same aspect. Throws ConfigError when the aspect is another one.
 CalibrationAnswer AtSize(const LensFile& lens, cv::Size size);

@@ -22,6 +22,10 @@ std::unique_ptr<Source> OpenOnce(const SourceConfig& config, const Clocks& clock
       return std::make_unique<VideoSource>(config);
     case SourceKind::kFolder:
       return std::make_unique<FolderSource>(config, content);
+    case SourceKind::kDimos:
+      throw config::ConfigError(config.key +
+                                ".kind is dimos, whose pictures come over the bus and cannot be "
+                                "opened here; set it to device, url, video or folder");
   }
   throw std::logic_error("unknown source kind");
 }

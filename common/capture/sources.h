@@ -10,13 +10,14 @@
 
 namespace deixis::capture {
 
-enum class SourceKind { kDevice, kUrl, kVideo, kFolder };
+enum class SourceKind { kDevice, kUrl, kVideo, kFolder, kDimos };
 
 inline auto EnumNames(SourceKind) {
   return std::vector<std::pair<std::string, SourceKind>>{{"device", SourceKind::kDevice},
                                                          {"url", SourceKind::kUrl},
                                                          {"video", SourceKind::kVideo},
-                                                         {"folder", SourceKind::kFolder}};
+                                                         {"folder", SourceKind::kFolder},
+                                                         {"dimos", SourceKind::kDimos}};
 }
 
 /// Slower recordings are none.
@@ -49,7 +50,8 @@ struct SourceConfig {
 };
 
 /// Opens what `config` names: the one place that knows all kinds of sources. Throws ConfigError,
-/// with the cure, when it cannot be opened.
+/// with the cure, when it cannot be opened, as pictures of a dimos robot cannot: they come over the
+/// bus, to which services subscribe.
 std::unique_ptr<Source> MakeSource(const SourceConfig& config, const Clocks& clocks);
 
 /// The same for a folder of 16-bit depth pictures: Picture::depth is set, not Picture::bgr.

@@ -84,14 +84,27 @@ class File {
   std::size_t left_;
 };
 
+JpegSize SizeOf(Segment frame) {
+  if (frame.size < 6) throw Stop{JpegFault::kNoJpeg};
+  return {frame.data[3] << 8 | frame.data[4], frame.data[1] << 8 | frame.data[2]};
+}
+
 // The frame's size is that of the message; returns its number of components.
 int CheckFrame(int marker, Segment frame, int width_px, int height_px) {
   if (marker != kBaseline && marker != kSequential) throw Stop{JpegFault::kNotBaseline};
-  if (frame.size < 6) throw Stop{JpegFault::kNoJpeg};
-  const int height = frame.data[1] << 8 | frame.data[2];
-  const int width = frame.data[3] << 8 | frame.data[4];
-  if (width != width_px || height != height_px) throw Stop{JpegFault::kOtherSize};
+  const JpegSize size = SizeOf(frame);
+  if (size.width_px != width_px || size.height_px != height_px) throw Stop{JpegFault::kOtherSize};
   return frame.data[5];
+}
+
+JpegSize FirstFrame(File file) {
+  if (file.Marker() != kStartOfImage) throw Stop{JpegFault::kNoJpeg};
+  for (int marker = file.Marker(); marker != kEndOfImage; marker = file.Marker()) {
+    const Segment segment = file.NextSegment();
+    if (IsFrame(marker)) return SizeOf(segment);
+    if (marker == kStartOfScan) file.SkipScan();
+  }
+  throw Stop{JpegFault::kNoJpeg};
 }
 
 // The file must be able to hold so many pixels.
@@ -129,6 +142,14 @@ JpegFault CheckJpeg(const std::uint8_t* data, std::size_t size, int width_px, in
     return stop.fault;
   }
   return JpegFault::kNone;
+}
+
+std::optional<JpegSize> FindJpegSize(const std::uint8_t* data, std::size_t size) {
+  try {
+    return FirstFrame({data, size});
+  } catch (const Stop&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace deixis::images

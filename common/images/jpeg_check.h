@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace deixis::images {
 
@@ -18,5 +19,14 @@ enum class JpegFault {
 /// Goes over the file of `size` bytes before a decoder takes memory and time for it. Damage within
 /// the coded pixels is not found: decoders get over it.
 JpegFault CheckJpeg(const std::uint8_t* data, std::size_t size, int width_px, int height_px);
+
+struct JpegSize {
+  int width_px = 0;
+  int height_px = 0;
+};
+
+/// The size that the file says it has; nothing where none is found. For pictures that come without
+/// one: what else is wrong, CheckJpeg says.
+std::optional<JpegSize> FindJpegSize(const std::uint8_t* data, std::size_t size);
 
 }  // namespace deixis::images

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "common/messages/dimos_parts.h"
 #include "common/messages/geometry_parts.h"
 
 namespace deixis::messages {
@@ -34,7 +35,6 @@ std::string FromModel(DistortionModel wanted) {
   throw std::logic_error("distortion model without a name");
 }
 
-constexpr double kLargestCoefficient = 1e6;  // of a lens: far beyond any
 constexpr double kRotationTolerance = 1e-3;
 
 bool IsRotation(const Eigen::Matrix3d& matrix) {
@@ -57,14 +57,6 @@ bool HasAllCoefficients(const CameraCalibration& calibration) {
   return false;
 }
 
-void RequireSensible(const CameraCalibration& calibration) {
-  const std::int64_t pixels = std::int64_t{calibration.width_px} * calibration.height_px;
-  const bool is_sensible = calibration.width_px > 0 && calibration.height_px > 0 &&
-                           pixels <= kMostPixels && calibration.focal_px.minCoeff() >= 1.0 &&
-                           HasAllCoefficients(calibration) && IsRotation(calibration.rectification);
-  if (!is_sensible) throw Rejected("out_of_range");
-}
-
 void FromMount(const CameraCalibration& calibration, camera_calibration_t& message) {
   message.has_mount = calibration.parent_from_camera.has_value();
   if (!calibration.parent_from_camera) return;
@@ -74,6 +66,14 @@ void FromMount(const CameraCalibration& calibration, camera_calibration_t& messa
 }
 
 }  // namespace
+
+void RequireSensible(const CameraCalibration& calibration) {
+  const std::int64_t pixels = std::int64_t{calibration.width_px} * calibration.height_px;
+  const bool is_sensible = calibration.width_px > 0 && calibration.height_px > 0 &&
+                           pixels <= kMostPixels && calibration.focal_px.minCoeff() >= 1.0 &&
+                           HasAllCoefficients(calibration) && IsRotation(calibration.rectification);
+  if (!is_sensible) throw Rejected("out_of_range");
+}
 
 CameraCalibration ToCameraCalibration(const camera_calibration_t& message) {
   RequireCount(message.n_distortion, kMostDistortion);
@@ -121,6 +121,9 @@ camera_calibration_t FromCameraCalibration(const CameraCalibration& calibration,
 }
 
 Decoded<CameraCalibration> Codec<CameraCalibration>::Decode(Bytes bytes) {
+  if (Fingerprint(bytes) == sensor_msgs::CameraInfo::getHash()) {
+    return {ToCameraCalibration(DecodeWire<sensor_msgs::CameraInfo>(bytes)), -1};
+  }
   const auto message = DecodeWire<camera_calibration_t>(bytes);
   return {ToCameraCalibration(message), Count(message.sequence)};
 }

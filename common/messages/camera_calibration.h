@@ -7,6 +7,9 @@
 
 namespace deixis::messages {
 
+/// deixis.camera_calibration_t, or sensor_msgs.CameraInfo of dimos robots, told apart by
+/// fingerprint (that has no sequence number; the camera's name is that of its frame). It is
+/// published as the former.
 template <>
 struct Codec<geometry::CameraCalibration> {
   static Decoded<geometry::CameraCalibration> Decode(Bytes bytes);

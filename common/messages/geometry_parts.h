@@ -36,6 +36,12 @@ inline void FromTransform(const geometry::RigidTransform& transform, double (&tr
   FromVector(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()), rotation_wxyz);
 }
 
+/// Of a distortion coefficient: far beyond that of any lens.
+inline constexpr double kLargestCoefficient = 1e6;
+
+/// Throws Rejected("out_of_range") unless a camera can have that lens.
+void RequireSensible(const geometry::CameraCalibration& calibration);
+
 /// A lens as it lies in a message; its sequence number is not looked at.
 geometry::CameraCalibration ToCameraCalibration(const camera_calibration_t& message);
 camera_calibration_t FromCameraCalibration(const geometry::CameraCalibration& calibration,

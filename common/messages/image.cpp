@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/messages/dimos_parts.h"
 #include "common/messages/image_parts.h"
 #include "common/messages/wire.h"
 
@@ -29,8 +30,17 @@ std::vector<std::uint8_t> Codec<EncodedImage>::Encode(const EncodedImage& image,
 }
 
 Decoded<Image> Codec<Image>::Decode(Bytes bytes) {
-  if (Fingerprint(bytes) != images_t::getHash()) return Numbered(DecodeWire<image_t>(bytes));
-  return Numbered(RequireImage(DecodeWire<images_t>(bytes), images_t::LEFT, "no_left_image"));
+  const std::int64_t fingerprint = Fingerprint(bytes);
+  if (fingerprint == images_t::getHash()) {
+    return Numbered(RequireImage(DecodeWire<images_t>(bytes), images_t::LEFT, "no_left_image"));
+  }
+  if (fingerprint == sensor_msgs::Image::getHash()) {
+    return {ToImage(DecodeWire<sensor_msgs::Image>(bytes)), -1};
+  }
+  if (fingerprint == sensor_msgs::CompressedImage::getHash()) {
+    return {ToImage(DecodeWire<sensor_msgs::CompressedImage>(bytes)), -1};
+  }
+  return Numbered(DecodeWire<image_t>(bytes));
 }
 
 std::vector<std::uint8_t> Codec<Image>::Encode(const Image& image, std::int64_t sequence) {

@@ -17,8 +17,11 @@ struct Codec<images::EncodedImage> {
   static Timestamp Time(const images::EncodedImage& value) { return value.time; }
 };
 
-/// Any picture of a bus: bot_core.image_t as MJPEG, BGR, RGB, grey or YUYV, or the LEFT picture of
-/// a bot_core.images_t; told apart by fingerprint. It is published as raw BGR.
+/// Any picture of a bus: bot_core.image_t as MJPEG, BGR, RGB, grey or YUYV, the LEFT picture of a
+/// bot_core.images_t, or what dimos robots send: sensor_msgs.Image (rgb8, bgr8, rgba8, bgra8,
+/// mono8, yuv422, yuv422_yuy2, jpeg), sensor_msgs.CompressedImage (jpeg). They are told apart by
+/// fingerprint. Those of dimos have no sequence number, and the frame's name as that of the camera.
+/// It is published as raw BGR.
 template <>
 struct Codec<images::Image> {
   static Decoded<images::Image> Decode(Bytes bytes);

@@ -347,8 +347,11 @@ struct Bus::Implementation {
 Bus::Bus(const BusOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}
 Bus::~Bus() = default;
 
-void Bus::SubscribeBytes(const std::string& channel, Delivery delivery, Receiver receiver) {
-  const std::string wire_channel = implementation_->options.channel_prefix + channel;
+std::string Bus::Prefixed(const std::string& channel) const {
+  return implementation_->options.channel_prefix + channel;
+}
+
+void Bus::SubscribeBytes(const std::string& wire_channel, Delivery delivery, Receiver receiver) {
   RequireChannelName(wire_channel);
   auto& subscription = implementation_->Add(wire_channel);
   if (!implementation_->options.deliver_every_message) subscription.delivery = delivery;
@@ -369,8 +372,7 @@ void Bus::PublishRaw(const std::string& wire_channel, messages::Bytes bytes, Tim
 
 void Bus::PublishBytes(const std::string& channel, const std::vector<std::uint8_t>& bytes,
                        Timestamp time) {
-  implementation_->Send(implementation_->options.channel_prefix + channel,
-                        {bytes.data(), bytes.size()}, time);
+  implementation_->Send(Prefixed(channel), {bytes.data(), bytes.size()}, time);
 }
 
 void Bus::NoteAge(Timestamp time) {
@@ -380,7 +382,7 @@ void Bus::NoteAge(Timestamp time) {
 }
 
 std::int64_t Bus::NextSequence(const std::string& channel) {
-  const std::string wire_channel = implementation_->options.channel_prefix + channel;
+  const std::string wire_channel = Prefixed(channel);
   RequireChannelName(wire_channel);
   return implementation_->OutputOf(wire_channel).next_sequence++;
 }

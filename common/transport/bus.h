@@ -74,15 +74,13 @@ class Bus {
   /// does.
   template <typename T, typename Handler>
   void Subscribe(const std::string& channel, Delivery delivery, Handler handler) {
-    SubscribeBytes(channel, delivery,
-                   [handler = std::move(handler)](messages::Bytes bytes, const Accept& accept) {
-                     const auto message = messages::Codec<T>::Decode(bytes);
-                     // Every service speaks on the channel of the status: its numbers say nothing.
-                     const bool has_one_publisher = !std::is_same_v<T, messages::ServiceStatus>;
-                     accept(has_one_publisher ? message.sequence : -1,
-                            messages::Codec<T>::Time(message.value));
-                     handler(message.value);
-                   });
+    SubscribeBytes(Prefixed(channel), delivery, ReceiverFor<T>(std::move(handler)));
+  }
+
+  /// The same for a channel of another system: its name stands as it is, without the prefix.
+  template <typename T, typename Handler>
+  void SubscribeForeign(const std::string& wire_channel, Delivery delivery, Handler handler) {
+    SubscribeBytes(wire_channel, delivery, ReceiverFor<T>(std::move(handler)));
   }
 
   /// Calls `handler` for every message whose wire channel matches the regular expression
@@ -122,7 +120,19 @@ class Bus {
  private:
   using Accept = std::function<void(std::int64_t sequence, Timestamp time)>;
   using Receiver = std::function<void(messages::Bytes, const Accept&)>;
-  void SubscribeBytes(const std::string& channel, Delivery delivery, Receiver receiver);
+
+  template <typename T, typename Handler>
+  static Receiver ReceiverFor(Handler handler) {
+    return [handler = std::move(handler)](messages::Bytes bytes, const Accept& accept) {
+      const auto message = messages::Codec<T>::Decode(bytes);
+      // Every service speaks on the channel of the status: its numbers say nothing.
+      const bool has_one_publisher = !std::is_same_v<T, messages::ServiceStatus>;
+      accept(has_one_publisher ? message.sequence : -1, messages::Codec<T>::Time(message.value));
+      handler(message.value);
+    };
+  }
+  std::string Prefixed(const std::string& channel) const;
+  void SubscribeBytes(const std::string& wire_channel, Delivery delivery, Receiver receiver);
   void PublishBytes(const std::string& channel, const std::vector<std::uint8_t>& bytes,
                     Timestamp time);
   void NoteAge(Timestamp time);

@@ -9,7 +9,7 @@ file(MAKE_DIRECTORY "${ROOT}")
 execute_process(COMMAND "${LCM_GEN}" --python --ppath "${ROOT}" ${FILES} COMMAND_ERROR_IS_FATAL ANY)
 
 foreach(package IN LISTS PACKAGES)
-  file(GLOB modules "${ROOT}/${package}/*_t.py")
+  file(GLOB modules "${ROOT}/${package}/*.py")
   foreach(module IN LISTS modules)
     # A byte array is what is read as it stands: self.data = buf.read(self.size)
     file(STRINGS "${module}" reads REGEX "^        self\\.[A-Za-z0-9_]+ = buf\\.read\\((self\\.[A-Za-z0-9_]+|[0-9]+)\\)$")

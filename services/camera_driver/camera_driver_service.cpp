@@ -8,6 +8,7 @@
 #include "common/messages/image.h"
 #include "common/program/source_step.h"
 #include "common/transport/channel_name.h"
+#include "services/camera_driver/core/pushed_source.h"
 
 namespace deixis::camera_driver {
 namespace {
@@ -26,19 +27,38 @@ void Append(const std::string& part, std::string& text) {
 
 void CameraDriverServiceConfig::Validate() const {
   config::Faults faults;
-  const auto channel_faults = transport::ChannelFaults(
-      {{"image_channel", image_channel}, {"calibration_channel", calibration_channel}});
+  const auto channel_faults =
+      transport::ChannelFaults({{"image_channel", image_channel},
+                                {"calibration_channel", calibration_channel},
+                                {"dimos.image_channel", dimos.image_channel},
+                                {"dimos.info_channel", dimos.info_channel}});
   for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
   driver.Check(faults);
   faults.ThrowIfAny();
 }
 
-CameraDriverService::CameraDriverService(const CameraDriverServiceConfig& config, transport::Bus&,
-                                         transport::Bus& output)
+CameraDriverService::CameraDriverService(const CameraDriverServiceConfig& config,
+                                         transport::Bus& input, transport::Bus& output)
     : config_(config),
       output_(output),
       clock_(capture::SystemClocks()),
-      driver_(config.driver, OpenQuietly(config.driver.source)) {}
+      driver_(config.driver, SourceOf(config, input)) {}
+
+std::unique_ptr<capture::Source> CameraDriverService::SourceOf(
+    const CameraDriverServiceConfig& config, transport::Bus& input) {
+  if (config.driver.source.kind != capture::SourceKind::kDimos) {
+    return OpenQuietly(config.driver.source);
+  }
+  auto source =
+      std::make_unique<PushedSource>(config.dimos.image_channel, capture::SystemClocks().monotonic);
+  input.SubscribeForeign<images::Image>(
+      config.dimos.image_channel, transport::Delivery::kLatest,
+      [pictures = source.get()](const images::Image& image) { pictures->Push(image); });
+  input.SubscribeForeign<geometry::CameraCalibration>(
+      config.dimos.info_channel, transport::Delivery::kLatest,
+      [this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); });
+  return source;
+}
 
 program::StepResult CameraDriverService::Step() {
   const DriverOutput step = driver_.Next(clock_.Now());

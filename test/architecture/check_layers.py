@@ -31,7 +31,8 @@ SOURCE_SUFFIXES = {".h", ".hpp", ".cpp", ".cc"}
 # Headers that a core must not see, and why.
 FORBIDDEN_IN_CORES = [
     (re.compile(r"lcm/"), "LCM"),
-    (re.compile(r"(lcmtypes|lcmtypes_cpp)/|(deixis|bot_core|kinect)/\w+_t\.hpp|message_types\.hpp"),
+    (re.compile(r"(lcmtypes|lcmtypes_cpp)/|(deixis|bot_core|kinect)/\w+_t\.hpp|message_types\.hpp"
+                r"|(geometry|sensor|std|tf2)_msgs/"),
      "a generated message type"),
     (re.compile(r"yaml-cpp/"), "yaml-cpp: common/config reads files"),
     (re.compile(r"spdlog/"), "a log: return what happened, the service decides what to say"),

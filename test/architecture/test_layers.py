@@ -43,7 +43,7 @@ def test_a_tree_without_faults_is_clean(tree: Path) -> None:
 
 @pytest.mark.parametrize("header", [
     "<lcm/lcm-cpp.hpp>", '"deixis/hands_t.hpp"', "<lcmtypes_cpp/deixis/hands_t.hpp>",
-    "<yaml-cpp/yaml.h>", "<spdlog/spdlog.h>", '"common/transport/bus.h"',
+    "<sensor_msgs/Image.hpp>", "<yaml-cpp/yaml.h>", "<spdlog/spdlog.h>", '"common/transport/bus.h"',
     '"common/messages/codec.h"', '"common/logging/log.h"',
 ])
 def test_a_core_that_knows_the_bus_is_found(tree: Path, header: str) -> None:

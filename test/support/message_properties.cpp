@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/messages/camera_calibration.h"
+#include "common/messages/depth_image.h"
 #include "common/messages/gesture.h"
 #include "common/messages/gesture_state.h"
 #include "common/messages/hands.h"
@@ -58,12 +59,15 @@ void RequireSoundCodec(Bytes bytes) {
 }
 
 void RequireSoundCodecs(Bytes bytes) {
-  RequireSoundCodec<geometry::CameraCalibration, camera_calibration_t>(bytes);
+  RequireSoundCodec<geometry::CameraCalibration, camera_calibration_t, sensor_msgs::CameraInfo>(
+      bytes);
+  RequireSoundCodec<images::DepthImage, sensor_msgs::Image>(bytes);
   RequireSoundCodec<scene::Gesture, gesture_t>(bytes);
   RequireSoundCodec<scene::GestureState, gesture_state_t>(bytes);
   RequireSoundCodec<scene::Hands, hand_tracks_t>(bytes);
   RequireSoundCodec<images::EncodedImage, bot_core::image_t>(bytes);
-  RequireSoundCodec<images::Image, bot_core::image_t, bot_core::images_t>(bytes);
+  RequireSoundCodec<images::Image, bot_core::image_t, bot_core::images_t, sensor_msgs::Image,
+                    sensor_msgs::CompressedImage>(bytes);
   RequireSoundCodec<scene::Objects, objects_t>(bytes);
   RequireSoundCodec<images::StereoImage, bot_core::images_t>(bytes);
   RequireSoundCodec<images::StereoPair, bot_core::images_t>(bytes);

@@ -12,7 +12,7 @@ import io
 import re
 import struct
 
-PACKAGES = ("deixis", "bot_core", "kinect")
+PACKAGES = ("deixis", "bot_core", "kinect", "geometry_msgs", "sensor_msgs", "std_msgs", "tf2_msgs")
 FINGERPRINT_BYTES = 8
 _LOOP = re.compile(r"range\(self\.(\w+)\)")  # how generated code runs over arrays of structs and strings
 

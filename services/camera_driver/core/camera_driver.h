@@ -50,6 +50,10 @@ class CameraDriver {
   /// calibration does not suit the pictures.
   DriverOutput Next(Timestamp now);
 
+  /// From now on the lens is this one, as the camera itself says, unless a file is configured. When
+  /// pictures have another aspect it is not theirs, and the remark says so.
+  void UseLens(const geometry::CameraCalibration& lens);
+
   capture::SourceStatus status() const { return source_->status(); }
   /// What has to be known about the calibration ("guessed ..."); empty before the first picture and
   /// when it is as in its file.
@@ -58,6 +62,7 @@ class CameraDriver {
  private:
   capture::SourceState Fetch();
   bool IsDue(Timestamp now);
+  capture::CalibrationAnswer LensFor(cv::Size size) const;
   std::optional<geometry::CameraCalibration> CalibrationIfDue(const images::EncodedImage& picture);
 
   CameraDriverConfig config_;
@@ -67,6 +72,8 @@ class CameraDriver {
   bool is_live_;
   std::optional<capture::Picture> waiting_;  ///< Recorded picture whose time has not come.
   capture::CalibrationAnswer lens_;
+  std::optional<geometry::CameraCalibration> own_lens_;  ///< What the camera says of itself.
+  bool is_own_lens_new_ = false;
   std::optional<Timestamp> calibration_sent_;
 };
 

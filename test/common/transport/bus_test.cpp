@@ -227,6 +227,26 @@ TEST_F(BusTest, SetsThePrefixInFrontOfEveryChannel) {
   EXPECT_EQ(count, 1);
 }
 
+TEST_F(BusTest, LeavesTheNamesOfForeignChannelsAsTheyAre) {
+  constexpr const char* kForeign = "/hands#package.Hands";
+  BusOptions options = test::Memory();
+  options.channel_prefix = "ROBOT_";
+  Bus bus(options);
+  bus.SubscribeForeign<Hands>(kForeign, Delivery::kEvery, [this](const Hands& hands) {
+    times_.push_back(hands.time.microseconds);
+  });
+  bus.PublishRaw(kForeign, BytesOf(messages::Codec<Hands>::Encode(At(7), 0)), {7});
+  bus.Publish(kForeign, At(8));
+  test::HandleAll(bus);
+  EXPECT_THAT(times_, ElementsAre(7));
+  EXPECT_EQ(Received(bus, kForeign).messages, 1);
+}
+
+TEST_F(BusTest, RefusesAForeignChannelThatIsNoName) {
+  EXPECT_THROW(bus_.SubscribeForeign<Hands>("/all.*", Delivery::kEvery, [](const Hands&) {}),
+               BusError);
+}
+
 TEST_F(BusTest, RawSubscribersSeeUndecodableMessages) {
   std::size_t size = 0;
   bus_.SubscribeRaw("ODD", [&](const RawMessage& raw) { size = raw.bytes.size; });

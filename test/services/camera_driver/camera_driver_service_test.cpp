@@ -5,6 +5,8 @@
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
+#include <sensor_msgs/CameraInfo.hpp>
+#include <sensor_msgs/Image.hpp>
 
 #include "common/messages/camera_calibration.h"
 #include "common/messages/image.h"
@@ -123,6 +125,122 @@ TEST_F(CameraDriverServiceTest, NamesEveryFaultOfItsConfiguration) {
               testing::ThrowsMessage<config::ConfigError>(
                   testing::AllOf(HasSubstr("image_channel"), HasSubstr("image.jpeg_quality"),
                                  HasSubstr("source.fourcc"))));
+}
+
+template <typename Message>
+void Send(transport::Bus& bus, const std::string& channel, const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  bus.PublishRaw(channel, {bytes.data(), bytes.size()}, {0});
+}
+
+std_msgs::Header RobotHeader(std::int32_t sec) {
+  std_msgs::Header header{};
+  header.stamp.sec = sec;
+  header.stamp.nsec = 250'000'000;
+  header.frame_id = "camera_optical";
+  return header;
+}
+
+sensor_msgs::Image RobotPicture(std::int32_t sec) {
+  sensor_msgs::Image message{};
+  message.header = RobotHeader(sec);
+  message.width = 64;
+  message.height = 48;
+  message.step = 64 * 3;
+  message.encoding = "rgb8";
+  for (int i = 0; i < 64 * 48; ++i) message.data.insert(message.data.end(), {200, 100, 50});
+  message.data_length = static_cast<std::int32_t>(message.data.size());
+  return message;
+}
+
+sensor_msgs::CameraInfo RobotLens(std::int32_t sec) {
+  sensor_msgs::CameraInfo message{};
+  message.header = RobotHeader(sec);
+  message.width = 64;
+  message.height = 48;
+  message.K[0] = message.K[4] = 70.0;
+  message.K[2] = 31.5;
+  message.K[5] = 23.5;
+  message.K[8] = 1.0;
+  return message;
+}
+
+class DimosCamera : public testing::Test {
+ protected:
+  DimosCamera() : bus_(PrefixedOptions()) {
+    config_.driver.source.kind = SourceKind::kDimos;
+    bus_.Subscribe<images::Image>("CAMERA", transport::Delivery::kEvery,
+                                  [this](const auto& image) { pictures_.push_back(image); });
+    bus_.Subscribe<geometry::CameraCalibration>(
+        "CAMERA_CALIBRATION", transport::Delivery::kEvery,
+        [this](const auto& lens) { lenses_.push_back(lens); });
+  }
+  static transport::BusOptions PrefixedOptions() {
+    transport::BusOptions options = test::Memory();
+    options.channel_prefix = "DEIXIS_";  // The robot's channels have none.
+    return options;
+  }
+  void Exchange(CameraDriverService& service) {
+    test::HandleAll(bus_);
+    while (service.Step() == program::StepResult::kContinue) {
+    }
+    test::HandleAll(bus_);
+  }
+  CameraDriverServiceConfig config_;
+  transport::Bus bus_;
+  std::vector<images::Image> pictures_;
+  std::vector<geometry::CameraCalibration> lenses_;
+};
+
+TEST_F(DimosCamera, PicturesGoOnWithTheirTimesUnderTheConfiguredName) {
+  CameraDriverService service(config_, bus_, bus_);
+  Send(bus_, config_.dimos.image_channel, RobotPicture(1'700'000'000));
+  Exchange(service);
+  ASSERT_EQ(pictures_.size(), 1U);
+  EXPECT_EQ(pictures_[0].time.microseconds, 1'700'000'000'250'000);
+  EXPECT_EQ(pictures_[0].camera, "CAMERA");
+  EXPECT_EQ(pictures_[0].bgr.size(), cv::Size(64, 48));
+  EXPECT_NEAR(cv::mean(pictures_[0].bgr)[2], 200, 3);
+}
+
+TEST_F(DimosCamera, TheLensIsThatOfTheRobotWithTheTimeOfThePicture) {
+  CameraDriverService service(config_, bus_, bus_);
+  Send(bus_, config_.dimos.info_channel, RobotLens(1'699'999'990));
+  Send(bus_, config_.dimos.image_channel, RobotPicture(1'700'000'000));
+  Exchange(service);
+  ASSERT_EQ(lenses_.size(), 1U);
+  EXPECT_TRUE(lenses_[0].is_calibrated);
+  EXPECT_EQ(lenses_[0].camera, "CAMERA");
+  EXPECT_EQ(lenses_[0].focal_px, Eigen::Vector2d(70.0, 70.0));
+  EXPECT_EQ(lenses_[0].time, pictures_.at(0).time);
+  EXPECT_EQ(service.health().text, "");
+}
+
+TEST_F(DimosCamera, BadPicturesAreCountedAndTheNextIsTaken) {
+  CameraDriverService service(config_, bus_, bus_);
+  auto bad = RobotPicture(1);
+  bad.encoding = "32FC1";
+  Send(bus_, config_.dimos.image_channel, bad);
+  Exchange(service);
+  EXPECT_TRUE(pictures_.empty());
+  Send(bus_, config_.dimos.image_channel, RobotPicture(2));
+  Exchange(service);
+  EXPECT_EQ(pictures_.size(), 1U);
+  for (const auto& channel : bus_.statistics()) {
+    if (channel.channel != config_.dimos.image_channel) continue;
+    EXPECT_THAT(channel.drops, ElementsAre(testing::Pair("bad_pixel_format", 1)));
+    return;
+  }
+  FAIL() << "no statistics of the robot's channel";
+}
+
+TEST_F(DimosCamera, ChannelsMustBeNames) {
+  config_.dimos.info_channel = "/camera info";
+  config_.dimos.image_channel = "";
+  EXPECT_THAT([this] { config_.Validate(); },
+              testing::ThrowsMessage<config::ConfigError>(testing::AllOf(
+                  HasSubstr("dimos.image_channel"), HasSubstr("dimos.info_channel"))));
 }
 
 TEST(PlayingClock, GoesOnEvenlyWhenTheWallClockIsSet) {

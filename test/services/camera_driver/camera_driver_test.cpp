@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "services/camera_driver/core/pushed_source.h"
 #include "test/common/capture/scripted_source.h"
 
 namespace deixis::camera_driver {
@@ -68,6 +69,64 @@ TEST(CameraDriver, KeepsTheCaptureTimeOfLivePictures) {
   live.is_live = true;
   CameraDriver driver = Driver(Pace::kByTime, {PictureAt(123'456)}, live);
   EXPECT_EQ(driver.Next({999'999'999}).picture->time.microseconds, 123'456);
+}
+
+geometry::CameraCalibration OwnLens(int width_px, int height_px) {
+  auto lens = geometry::GuessCalibration(width_px, height_px, 1.0);
+  lens.camera = "camera_optical";
+  lens.is_calibrated = true;
+  return lens;
+}
+
+TEST(CameraDriver, TakesTheLensThatTheCameraSaysAtOnceAndInItsSize) {
+  CameraDriver driver = Driver(Pace::kAsFastAsPossible, TwentyPictures());
+  EXPECT_FALSE(driver.Next({0}).calibration->is_calibrated);
+  driver.UseLens(OwnLens(128, 96));
+  const auto calibration = driver.Next({0}).calibration;
+  ASSERT_TRUE(calibration);
+  EXPECT_TRUE(calibration->is_calibrated);
+  EXPECT_EQ(calibration->camera, "CAMERA");
+  EXPECT_EQ(calibration->width_px, 64);
+  EXPECT_NEAR(calibration->focal_px.x(), OwnLens(128, 96).focal_px.x() / 2, 1e-9);
+}
+
+TEST(CameraDriver, SaysALensThatIsSaidAgainNoMoreOften) {
+  CameraDriver driver = Driver(Pace::kAsFastAsPossible, TwentyPictures());
+  int count = 0;
+  for (int i = 0; i < 10; ++i) {  // 0.9 s
+    driver.UseLens(OwnLens(64, 48));
+    if (driver.Next({0}).calibration) ++count;
+  }
+  EXPECT_EQ(count, 1);
+}
+
+TEST(CameraDriver, LeavesALensOfAnotherAspectAndSaysSo) {
+  CameraDriver driver = Driver(Pace::kAsFastAsPossible, TwentyPictures());
+  driver.UseLens(OwnLens(64, 64));
+  EXPECT_FALSE(driver.Next({0}).calibration->is_calibrated);
+  EXPECT_THAT(driver.calibration_remark(), HasSubstr("64x64, another aspect"));
+}
+
+TEST(PushedSource, GivesTheNewestAndCountsTheOthers) {
+  PushedSource source("/camera", [] { return Timestamp{0}; });
+  EXPECT_EQ(source.Next().state, SourceState::kWaiting);
+  source.Push({{1}, "", cv::Mat(2, 2, CV_8UC3)});
+  source.Push({{2}, "", cv::Mat(2, 2, CV_8UC3)});
+  EXPECT_EQ(source.Next().picture->time.microseconds, 2);
+  EXPECT_EQ(source.Next().state, SourceState::kWaiting);
+  EXPECT_EQ(source.status().skipped, 1);
+}
+
+TEST(PushedSource, IsInTroubleWhenNothingComes) {
+  std::int64_t now_us = 10'000'000;
+  PushedSource source("/camera", [&now_us] { return Timestamp{now_us}; });
+  EXPECT_EQ(source.status().trouble, "");
+  now_us += 4'000'000;
+  EXPECT_THAT(source.status().trouble, HasSubstr("no picture yet on '/camera'"));
+  source.Push({{1}, "", cv::Mat(2, 2, CV_8UC3)});
+  EXPECT_EQ(source.status().trouble, "");
+  now_us += 4'000'000;
+  EXPECT_THAT(source.status().trouble, HasSubstr("no more pictures on '/camera'"));
 }
 
 TEST(CameraDriver, FinishesWithItsSource) {

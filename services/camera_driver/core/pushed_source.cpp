@@ -1,0 +1,40 @@
+#include "services/camera_driver/core/pushed_source.h"
+
+#include <utility>
+
+namespace deixis::camera_driver {
+namespace {
+
+constexpr double kLongestSilence_s = 3.0;
+
+}  // namespace
+
+PushedSource::PushedSource(std::string name, std::function<Timestamp()> clock)
+    : name_(std::move(name)), clock_(std::move(clock)), last_arrival_(clock_()) {}
+
+void PushedSource::Push(const images::Image& image) {
+  if (waiting_) ++skipped_;
+  waiting_.emplace();
+  waiting_->time = image.time;
+  waiting_->bgr = image.bgr;
+  last_arrival_ = clock_();
+  has_begun_ = true;
+}
+
+capture::Grab PushedSource::Next() {
+  if (!waiting_) return {};
+  return {capture::SourceState::kPicture, std::exchange(waiting_, std::nullopt)};
+}
+
+capture::SourceStatus PushedSource::status() const {
+  capture::SourceStatus status;
+  status.is_live = true;
+  status.skipped = skipped_;
+  if (SecondsBetween(last_arrival_, clock_()) > kLongestSilence_s) {
+    status.trouble = (has_begun_ ? "no more pictures on '" : "no picture yet on '") + name_ +
+                     "'; see that the robot's camera runs, and that the channel is its own";
+  }
+  return status;
+}
+
+}  // namespace deixis::camera_driver
