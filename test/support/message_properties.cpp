@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/messages/camera_calibration.h"
+#include "common/messages/camera_pose.h"
 #include "common/messages/depth_image.h"
 #include "common/messages/gesture.h"
 #include "common/messages/gesture_state.h"
@@ -61,6 +62,7 @@ void RequireSoundCodec(Bytes bytes) {
 void RequireSoundCodecs(Bytes bytes) {
   RequireSoundCodec<geometry::CameraCalibration, camera_calibration_t, sensor_msgs::CameraInfo>(
       bytes);
+  RequireSoundCodec<geometry::CameraPose, bot_core::rigid_transform_t>(bytes);
   RequireSoundCodec<images::DepthImage, sensor_msgs::Image>(bytes);
   RequireSoundCodec<scene::Gesture, gesture_t>(bytes);
   RequireSoundCodec<scene::GestureState, gesture_state_t>(bytes);

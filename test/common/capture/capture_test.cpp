@@ -1,8 +1,10 @@
 #include "common/capture/capture.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <opencv2/videoio.hpp>
+
+#include "common/capture/sources.h"
 
 namespace deixis::capture {
 namespace {
@@ -79,6 +81,15 @@ TEST(DeviceCapture, GivesNoReaderForADeviceThatIsNotThere) {
   SourceConfig config;
   config.path = "/dev/video_that_is_not_there";
   EXPECT_FALSE(DeviceCapture(config, FixedClocks()).open());
+}
+
+TEST(MakeSource, RefusesADimosRobotWhosePicturesComeOverTheBus) {
+  SourceConfig config;
+  config.kind = SourceKind::kDimos;
+  config.key = "source.left";
+  EXPECT_THAT([&] { MakeSource(config, FixedClocks()); },
+              testing::ThrowsMessage<config::ConfigError>(testing::HasSubstr(
+                  "source.left.kind is dimos, whose pictures come over the bus")));
 }
 
 }  // namespace

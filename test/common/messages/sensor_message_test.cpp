@@ -2,12 +2,15 @@
 #include <gmock/gmock.h>
 
 #include <bot_core/images_t.hpp>
+#include <bot_core/rigid_transform_t.hpp>
+#include <cmath>
 #include <functional>
 #include <kinect/frame_msg_t.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/messages/camera_calibration.h"
+#include "common/messages/camera_pose.h"
 #include "common/messages/rgbd_image.h"
 #include "common/messages/stereo_calibration.h"
 #include "common/messages/stereo_image.h"
@@ -315,6 +318,43 @@ TEST(HostileRgbd, FormatsThatNobodyKnowsAreNamed) {
 TEST(HostileRgbd, PixelsThatAreNotThereAreNotRead) {
   EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.image.width = 17; }), "too_few_pixels");
   EXPECT_EQ(ReasonOfKinect([](frame_msg_t& m) { m.depth.height = 7; }), "zlib_too_short");
+}
+
+bot_core::rigid_transform_t RobotPose() {
+  bot_core::rigid_transform_t message{};
+  message.utime = kTime.microseconds;
+  const double translation_m[3] = {0.1, -0.2, 1.4};
+  const double rotation_wxyz[4] = {0.5, -0.5, 0.5, -0.5};  // optical: z forward, x right
+  std::copy(std::begin(translation_m), std::end(translation_m), message.trans);
+  std::copy(std::begin(rotation_wxyz), std::end(rotation_wxyz), message.quat);
+  return message;
+}
+
+TEST(CameraPose, PutsWhatIsInFrontOfTheCameraInFrontOfTheRobot) {
+  const auto pose = Decode<geometry::CameraPose>(Encoded(RobotPose()));
+  EXPECT_EQ(pose.time, kTime);
+  const Eigen::Vector3d in_parent = pose.parent_from_camera * Eigen::Vector3d(0.0, 0.0, 2.0);
+  EXPECT_TRUE(in_parent.isApprox(Eigen::Vector3d(2.1, -0.2, 1.4), 1e-12)) << in_parent.transpose();
+}
+
+TEST(CameraPose, GoesThereAndBackWithTheSameBytes) {
+  const auto bytes = Encoded(RobotPose());
+  EXPECT_EQ(Codec<geometry::CameraPose>::Encode(Decode<geometry::CameraPose>(bytes), 7), bytes);
+  EXPECT_EQ(Codec<geometry::CameraPose>::Decode({bytes.data(), bytes.size()}).sequence, -1);
+}
+
+TEST(HostileCameraPose, WhatIsNoPlaceIsRejected) {
+  const auto reason = [](void (*change)(bot_core::rigid_transform_t&)) {
+    auto message = RobotPose();
+    change(message);
+    return ReasonFor<geometry::CameraPose>(message);
+  };
+  EXPECT_EQ(reason([](auto&) {}), "accepted");
+  EXPECT_EQ(reason([](auto& m) { m.quat[0] = 0.6; }), "not_a_rotation");
+  EXPECT_EQ(reason([](auto& m) { m.quat[1] = std::nan(""); }), "not_finite");
+  EXPECT_EQ(reason([](auto& m) { m.trans[2] = INFINITY; }), "not_finite");
+  EXPECT_EQ(reason([](auto& m) { m.trans[0] = 1e9; }), "out_of_range");
+  EXPECT_EQ(reason([](auto& m) { m.utime = -1; }), "out_of_range");
 }
 
 }  // namespace

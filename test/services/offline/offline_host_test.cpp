@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/messages/camera_pose.h"
 #include "common/messages/hands.h"
 #include "common/messages/objects.h"
 #include "test/support/temporary_folder.h"
@@ -91,6 +92,38 @@ TEST_F(OfflineHostTest, KeepsChannelsThatNobodyReads) {
   WriteInput({{"OTHER", 20}});
   Run();
   EXPECT_THAT(Events(), ElementsAre("OTHER@20"));
+}
+
+using Contents = std::vector<std::pair<std::string, std::vector<std::uint8_t>>>;
+
+Contents ReadContents(const std::string& path) {
+  Contents contents;
+  LogReader reader(path);
+  while (reader.Next()) {
+    const transport::RawMessage& event = reader.event();
+    contents.emplace_back(
+        event.channel,
+        std::vector<std::uint8_t>(event.bytes.data, event.bytes.data + event.bytes.size));
+  }
+  return contents;
+}
+
+TEST_F(OfflineHostTest, PassesPosesAndUnknownTypesThroughByteByByte) {
+  const geometry::CameraPose pose{{10},
+                                  {Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, -0.2, 1.4}}};
+  const std::vector<std::uint8_t> unknown{0, 1, 2, 255, 254, 3, 4, 5, 6, 7};
+  {
+    Bus bus(Log(Path("in.lcmlog")));
+    bus.Publish("CAMERA_POSE", pose);
+    bus.PublishRaw("/robot#nobody.Knows", {unknown.data(), unknown.size()}, {20});
+    bus.Flush();
+  }
+  Run();
+  EXPECT_THAT(ReadContents(Path("out.lcmlog")),
+              ElementsAre(testing::Pair("CAMERA_POSE",
+                                        messages::Codec<geometry::CameraPose>::Encode(pose, -1)),
+                          testing::Pair("/robot#nobody.Knows", unknown)));
+  EXPECT_THAT(Events(), ElementsAre("CAMERA_POSE@10", "/robot#nobody.Knows@20"));
 }
 
 TEST_F(OfflineHostTest, ReplacesOldResultsOfTheServicesItHosts) {
