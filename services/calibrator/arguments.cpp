@@ -1,8 +1,8 @@
 #include "services/calibrator/arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
-#include <regex>
 
 #include "common/program/command_line.h"
 
@@ -21,13 +21,20 @@ struct Texts {
   bool has_fixed_lenses = false;
 };
 
+bool IsCount(const std::string& text) {
+  constexpr std::size_t kMostDigits = 5;
+  return !text.empty() && text.size() <= kMostDigits &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 cv::Size ParseSize(const std::string& text, const std::string& option) {
-  std::smatch parts;
-  static const std::regex kForm("([0-9]{1,5})x([0-9]{1,5})");
-  if (!std::regex_match(text, parts, kForm)) {
+  const auto cross = text.find('x');
+  const std::string columns = text.substr(0, cross);
+  const std::string rows = cross == std::string::npos ? "" : text.substr(cross + 1);
+  if (!IsCount(columns) || !IsCount(rows)) {
     throw CLI::ValidationError(option, "'" + text + "' is not of the form 9x6");
   }
-  return {std::stoi(parts[1]), std::stoi(parts[2])};
+  return {std::stoi(columns), std::stoi(rows)};
 }
 
 void AddBoard(CLI::App& app, Arguments& arguments, Texts& texts) {

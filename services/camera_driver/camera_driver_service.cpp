@@ -2,13 +2,13 @@
 
 #include <opencv2/core/utils/logger.hpp>
 
+#include "common/capture/pushed_source.h"
 #include "common/capture/system_clocks.h"
 #include "common/logging/log.h"
 #include "common/messages/camera_calibration.h"
 #include "common/messages/image.h"
 #include "common/program/source_step.h"
 #include "common/transport/channel_name.h"
-#include "services/camera_driver/core/pushed_source.h"
 
 namespace deixis::camera_driver {
 namespace {
@@ -49,8 +49,8 @@ std::unique_ptr<capture::Source> CameraDriverService::SourceOf(
   if (config.driver.source.kind != capture::SourceKind::kDimos) {
     return OpenQuietly(config.driver.source);
   }
-  auto source =
-      std::make_unique<PushedSource>(config.dimos.image_channel, capture::SystemClocks().monotonic);
+  auto source = std::make_unique<capture::PushedSource>(config.dimos.image_channel,
+                                                        capture::SystemClocks().monotonic);
   input.SubscribeForeign<images::Image>(
       config.dimos.image_channel, transport::Delivery::kLatest,
       [pictures = source.get()](const images::Image& image) { pictures->Push(image); });

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <regex>
 
 #include "common/config/config.h"
 
@@ -22,13 +21,19 @@ std::string NameOf(int number) {
   return name;
 }
 
+// Six digits and .png; `room.png` is none.
+bool IsFrame(const std::string& file) {
+  constexpr std::size_t kDigits = 6;
+  return file.size() == kDigits + 4 && file.substr(kDigits) == ".png" &&
+         file.find_first_not_of("0123456789") == kDigits;
+}
+
 std::set<int> FramesWithTruth(const fs::path& folder) {
   std::set<int> frames;
   std::error_code ignored;
-  const std::regex name("[0-9]{6}\\.png");
   for (const auto& entry : fs::directory_iterator(folder / "depth", ignored)) {
     const std::string file = entry.path().filename().string();
-    if (std::regex_match(file, name) && fs::exists(folder / "mask" / file)) {
+    if (IsFrame(file) && fs::exists(folder / "mask" / file)) {
       frames.insert(std::stoi(file));
     }
   }

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "services/camera_driver/core/pushed_source.h"
 #include "test/common/capture/scripted_source.h"
 
 namespace deixis::camera_driver {
@@ -105,28 +104,6 @@ TEST(CameraDriver, LeavesALensOfAnotherAspectAndSaysSo) {
   driver.UseLens(OwnLens(64, 64));
   EXPECT_FALSE(driver.Next({0}).calibration->is_calibrated);
   EXPECT_THAT(driver.calibration_remark(), HasSubstr("64x64, another aspect"));
-}
-
-TEST(PushedSource, GivesTheNewestAndCountsTheOthers) {
-  PushedSource source("/camera", [] { return Timestamp{0}; });
-  EXPECT_EQ(source.Next().state, SourceState::kWaiting);
-  source.Push({{1}, "", cv::Mat(2, 2, CV_8UC3)});
-  source.Push({{2}, "", cv::Mat(2, 2, CV_8UC3)});
-  EXPECT_EQ(source.Next().picture->time.microseconds, 2);
-  EXPECT_EQ(source.Next().state, SourceState::kWaiting);
-  EXPECT_EQ(source.status().skipped, 1);
-}
-
-TEST(PushedSource, IsInTroubleWhenNothingComes) {
-  std::int64_t now_us = 10'000'000;
-  PushedSource source("/camera", [&now_us] { return Timestamp{now_us}; });
-  EXPECT_EQ(source.status().trouble, "");
-  now_us += 4'000'000;
-  EXPECT_THAT(source.status().trouble, HasSubstr("no picture yet on '/camera'"));
-  source.Push({{1}, "", cv::Mat(2, 2, CV_8UC3)});
-  EXPECT_EQ(source.status().trouble, "");
-  now_us += 4'000'000;
-  EXPECT_THAT(source.status().trouble, HasSubstr("no more pictures on '/camera'"));
 }
 
 TEST(CameraDriver, FinishesWithItsSource) {

@@ -1,8 +1,8 @@
-#include "services/camera_driver/core/pushed_source.h"
+#include "common/capture/pushed_source.h"
 
 #include <utility>
 
-namespace deixis::camera_driver {
+namespace deixis::capture {
 namespace {
 
 constexpr double kLongestSilence_s = 3.0;
@@ -21,13 +21,13 @@ void PushedSource::Push(const images::Image& image) {
   has_begun_ = true;
 }
 
-capture::Grab PushedSource::Next() {
+Grab PushedSource::Next() {
   if (!waiting_) return {};
-  return {capture::SourceState::kPicture, std::exchange(waiting_, std::nullopt)};
+  return {SourceState::kPicture, std::exchange(waiting_, std::nullopt)};
 }
 
-capture::SourceStatus PushedSource::status() const {
-  capture::SourceStatus status;
+SourceStatus PushedSource::status() const {
+  SourceStatus status;
   status.is_live = true;
   status.skipped = skipped_;
   if (SecondsBetween(last_arrival_, clock_()) > kLongestSilence_s) {
@@ -37,4 +37,4 @@ capture::SourceStatus PushedSource::status() const {
   return status;
 }
 
-}  // namespace deixis::camera_driver
+}  // namespace deixis::capture
