@@ -13,10 +13,22 @@ PushedSource::PushedSource(std::string name, std::function<Timestamp()> clock)
     : name_(std::move(name)), clock_(std::move(clock)), last_arrival_(clock_()) {}
 
 void PushedSource::Push(const images::Image& image) {
+  Picture picture;
+  picture.time = image.time;
+  picture.bgr = image.bgr;
+  Keep(std::move(picture));
+}
+
+void PushedSource::Push(const images::DepthImage& image) {
+  Picture picture;
+  picture.time = image.time;
+  picture.depth = image.depth_mm;
+  Keep(std::move(picture));
+}
+
+void PushedSource::Keep(Picture picture) {
   if (waiting_) ++skipped_;
-  waiting_.emplace();
-  waiting_->time = image.time;
-  waiting_->bgr = image.bgr;
+  waiting_ = std::move(picture);
   last_arrival_ = clock_();
   has_begun_ = true;
 }

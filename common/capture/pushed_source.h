@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/capture/source.h"
+#include "common/images/depth_image.h"
 #include "common/images/image.h"
 
 namespace deixis::capture {
@@ -17,11 +18,14 @@ class PushedSource final : public Source {
   PushedSource(std::string name, std::function<Timestamp()> clock);
 
   void Push(const images::Image& image);
+  void Push(const images::DepthImage& image);
   Grab Next() override;
   /// In trouble when the last picture is older than three seconds, by their arrival.
   SourceStatus status() const override;
 
  private:
+  void Keep(Picture picture);
+
   std::string name_;
   std::function<Timestamp()> clock_;
   Timestamp last_arrival_;

@@ -2,14 +2,19 @@
 
 #include <opencv2/core/utils/logger.hpp>
 
+#include "common/capture/pushed_source.h"
 #include "common/capture/system_clocks.h"
 #include "common/logging/log.h"
+#include "common/messages/camera_calibration.h"
+#include "common/messages/depth_image.h"
+#include "common/messages/image.h"
 #include "common/messages/rgbd_image.h"
 #include "common/messages/stereo_calibration.h"
 #include "common/messages/stereo_image.h"
 #include "common/messages/stereo_pair.h"
 #include "common/program/source_step.h"
 #include "common/transport/channel_name.h"
+#include "services/stereo_driver/core/sources/matched_source.h"
 
 namespace deixis::stereo_driver {
 namespace {
@@ -46,7 +51,10 @@ void StereoDriverServiceConfig::Validate() const {
       transport::ChannelFaults({{"stereo_channel", stereo_channel},
                                 {"calibration_channel", calibration_channel},
                                 {"pair_channel", pair_channel},
-                                {"kinect_channel", kinect_channel}});
+                                {"kinect_channel", kinect_channel},
+                                {"dimos.image_channel", dimos.image_channel},
+                                {"dimos.depth_channel", dimos.depth_channel},
+                                {"dimos.info_channel", dimos.info_channel}});
   for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
   faults.Require(!publishes_pairs || driver.source.kind != FrameSourceKind::kPairChannel,
                  "publishes_pairs", "must be false when the pairs come from pair_channel");
@@ -59,8 +67,32 @@ StereoDriverService::StereoDriverService(const StereoDriverServiceConfig& config
     : config_(config),
       output_(output),
       clock_(capture::SystemClocks()),
-      driver_(config.driver, OpenQuietly(config.driver.source), WhatToKeep(config)) {
+      driver_(config.driver, SourceOf(config, input), WhatToKeep(config)) {
   Listen(input);
+}
+
+std::unique_ptr<FrameSource> StereoDriverService::SourceOf(const StereoDriverServiceConfig& config,
+                                                           transport::Bus& input) {
+  if (config.driver.source.kind != FrameSourceKind::kDimos) {
+    return OpenQuietly(config.driver.source);
+  }
+  const auto clock = capture::SystemClocks().monotonic;
+  auto colour = std::make_unique<capture::PushedSource>(config.dimos.image_channel, clock);
+  auto depth = std::make_unique<capture::PushedSource>(config.dimos.depth_channel, clock);
+  input.SubscribeForeign<images::Image>(
+      config.dimos.image_channel, Delivery::kLatest,
+      [pictures = colour.get()](const images::Image& image) { pictures->Push(image); });
+  input.SubscribeForeign<images::DepthImage>(
+      config.dimos.depth_channel, Delivery::kLatest,
+      [pictures = depth.get()](const images::DepthImage& image) { pictures->Push(image); });
+  input.SubscribeForeign<geometry::CameraCalibration>(
+      config.dimos.info_channel, Delivery::kLatest,
+      [this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); });
+  return std::make_unique<MatchedSource>(
+      std::move(colour), std::move(depth), config.driver.source.max_skew_s,
+      [](const capture::Picture& picture, const capture::Picture& distances) {
+        return ComposeColourAndDepth(picture, distances, /*depth_unit_mm=*/1.0);
+      });
 }
 
 void StereoDriverService::Listen(transport::Bus& input) {

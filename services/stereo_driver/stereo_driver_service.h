@@ -9,11 +9,26 @@
 
 namespace deixis::stereo_driver {
 
+/// Channels of a dimos robot, as they are on the wire: no prefix goes in front of them.
+struct DimosConfig {
+  std::string image_channel = "/color_image#sensor_msgs.Image";      ///< Or CompressedImage.
+  std::string depth_channel = "/depth_image#sensor_msgs.Image";      ///< 16UC1 or 32FC1.
+  std::string info_channel = "/camera_info#sensor_msgs.CameraInfo";  ///< The colour lens.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("image_channel", image_channel);
+    v("depth_channel", depth_channel);
+    v("info_channel", info_channel);
+  }
+};
+
 struct StereoDriverServiceConfig {
   std::string stereo_channel = "STEREO";                   ///< Pictures with depth go here.
   std::string calibration_channel = "STEREO_CALIBRATION";  ///< What is known of the cameras.
   std::string pair_channel = "STEREO_PAIR";     ///< Pairs as taken: to here, or from here.
   std::string kinect_channel = "KINECT_FRAME";  ///< source.kind kinect_channel: from here.
+  DimosConfig dimos;                            ///< source.kind dimos: from here.
   bool publishes_pairs = false;                 ///< Pairs go out too, so that a log can keep them.
   StereoDriverConfig driver;
 
@@ -23,6 +38,7 @@ struct StereoDriverServiceConfig {
     v("calibration_channel", calibration_channel);
     v("pair_channel", pair_channel);
     v("kinect_channel", kinect_channel);
+    v("dimos", dimos);
     v("publishes_pairs", publishes_pairs);
     driver.Visit(v);  // On the same level: `source.kind`, not `driver.source.kind`.
   }
@@ -42,6 +58,8 @@ class StereoDriverService {
   transport::Health health() const;
 
  private:
+  std::unique_ptr<FrameSource> SourceOf(const StereoDriverServiceConfig& config,
+                                        transport::Bus& input);
   void Listen(transport::Bus& input);
   void Publish(const StereoOutput& output);
   void LogNews();

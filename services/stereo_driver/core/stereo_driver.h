@@ -91,6 +91,9 @@ class StereoDriver {
   StereoOutput Convert(const images::StereoPair& pair);
   StereoOutput Convert(const images::RgbdImage& image);
 
+  /// The colour camera's lens as somebody else says it; a calibration file goes before it.
+  void UseLens(const geometry::CameraCalibration& lens);
+
   FrameSourceStatus status() const;
   /// What has to be known about the calibration; empty before the first frame and when it is as in
   /// its files.
@@ -102,6 +105,7 @@ class StereoDriver {
   StereoOutput ConvertAt(Timestamp time, Frame frame);
   void PrepareRig(cv::Size size);
   void PrepareDepthCamera(cv::Size size);
+  capture::CalibrationAnswer LensFor(cv::Size size) const;
   StereoOutput Packed(const RectifiedDepth& depth, Timestamp time);
   std::optional<geometry::StereoCalibration> CalibrationIfDue(Timestamp time);
 
@@ -114,7 +118,8 @@ class StereoDriver {
 
   std::optional<RigCalibration> rig_;         ///< For pairs.
   std::optional<capture::Calibration> lens_;  ///< For colour and depth.
-  geometry::StereoCalibration calibration_;   ///< Of the frames that come now.
+  std::optional<geometry::CameraCalibration> foreign_lens_;
+  geometry::StereoCalibration calibration_;  ///< Of the frames that come now.
   std::string remark_;
   std::optional<StereoMatcher> matcher_;
   std::optional<DepthCamera> depth_camera_;

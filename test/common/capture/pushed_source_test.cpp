@@ -12,8 +12,8 @@ using testing::HasSubstr;
 TEST(PushedSource, GivesTheNewestAndCountsTheOthers) {
   PushedSource source("/camera", [] { return Timestamp{0}; });
   EXPECT_EQ(source.Next().state, SourceState::kWaiting);
-  source.Push({{1}, "", cv::Mat(2, 2, CV_8UC3)});
-  source.Push({{2}, "", cv::Mat(2, 2, CV_8UC3)});
+  source.Push(images::Image{{1}, "", cv::Mat(2, 2, CV_8UC3)});
+  source.Push(images::Image{{2}, "", cv::Mat(2, 2, CV_8UC3)});
   EXPECT_EQ(source.Next().picture->time.microseconds, 2);
   EXPECT_EQ(source.Next().state, SourceState::kWaiting);
   EXPECT_EQ(source.status().skipped, 1);
@@ -25,7 +25,7 @@ TEST(PushedSource, IsInTroubleWhenNothingComes) {
   EXPECT_EQ(source.status().trouble, "");
   now_us += 4'000'000;
   EXPECT_THAT(source.status().trouble, HasSubstr("no picture yet on '/camera'"));
-  source.Push({{1}, "", cv::Mat(2, 2, CV_8UC3)});
+  source.Push(images::Image{{1}, "", cv::Mat(2, 2, CV_8UC3)});
   EXPECT_EQ(source.status().trouble, "");
   now_us += 4'000'000;
   EXPECT_THAT(source.status().trouble, HasSubstr("no more pictures on '/camera'"));

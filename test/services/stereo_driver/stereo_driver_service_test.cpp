@@ -4,6 +4,9 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/messages/camera_calibration.h"
+#include "common/messages/depth_image.h"
+#include "common/messages/image.h"
 #include "common/messages/rgbd_image.h"
 #include "common/messages/stereo_calibration.h"
 #include "common/messages/stereo_image.h"
@@ -18,7 +21,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Five ways to the same: one pair of a plane, whatever way it comes, ends on STEREO.
+/// All ways to the same: one pair of a plane, whatever way it comes, ends on STEREO.
 class StereoDriverServiceTest : public testing::Test {
  protected:
   StereoDriverServiceTest() : pair_(Photograph(SyntheticRig(), Plane{})) {
@@ -127,6 +130,31 @@ TEST_F(StereoDriverServiceTest, TakesAKinectsFrames) {
   ASSERT_EQ(received_.size(), 1u);
   ExpectThePlane(received_[0]);
   EXPECT_EQ(received_[0].left.time.microseconds, 5);
+}
+
+TEST_F(StereoDriverServiceTest, TakesColourDepthAndLensOfADimosRobot) {
+  config_.driver.source.kind = FrameSourceKind::kDimos;
+  StereoDriverService service(config_, bus_, bus_);
+  geometry::CameraCalibration lens = geometry::GuessCalibration(320, 240, 1.3);
+  lens.time = {5'000};
+  lens.is_calibrated = true;
+  std::optional<geometry::StereoCalibration> calibration;
+  bus_.Subscribe<geometry::StereoCalibration>(
+      "STEREO_CALIBRATION", transport::Delivery::kEvery,
+      [&calibration](const geometry::StereoCalibration& said) { calibration = said; });
+  bus_.Publish("/camera_info#sensor_msgs.CameraInfo", lens);
+  bus_.Publish("/color_image#sensor_msgs.Image", images::Image{{5'000}, "", pair_.left.bgr});
+  bus_.Publish("/depth_image#sensor_msgs.Image",
+               images::DepthImage{{9'000}, "", cv::Mat(240, 320, CV_16UC1, cv::Scalar(2000))});
+  test::HandleAll(bus_);
+  service.Step();
+  test::HandleAll(bus_);
+  ASSERT_EQ(received_.size(), 1u);
+  ExpectThePlane(received_[0]);
+  EXPECT_EQ(received_[0].left.time.microseconds, 5'000);
+  ASSERT_TRUE(calibration);
+  EXPECT_EQ(calibration->rectified.focal_px, lens.focal_px);
+  EXPECT_TRUE(calibration->rectified.is_calibrated);
 }
 
 TEST_F(StereoDriverServiceTest, PublishesCalibrationThenPairThenDepth) {

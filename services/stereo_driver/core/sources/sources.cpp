@@ -69,6 +69,7 @@ std::unique_ptr<FrameSource> MakeFrameSource(const FrameSourceConfig& config,
           });
     case FrameSourceKind::kPairChannel:
     case FrameSourceKind::kKinectChannel:
+    case FrameSourceKind::kDimos:
       return nullptr;
   }
   throw std::logic_error("unknown kind of frame source");

@@ -15,7 +15,8 @@ enum class FrameSourceKind {
   kSideBySide,      ///< `left` alone; each picture holds both views.
   kColourAndDepth,  ///< `left` is colour, `right` a folder of 16-bit depth pictures.
   kPairChannel,     ///< STEREO_PAIR from the bus: a recorded pair is matched again.
-  kKinectChannel    ///< kinect.frame_msg_t from the bus.
+  kKinectChannel,   ///< kinect.frame_msg_t from the bus.
+  kDimos            ///< Colour, depth and lens of a dimos robot, from the bus.
 };
 
 inline auto EnumNames(FrameSourceKind) {
@@ -24,10 +25,11 @@ inline auto EnumNames(FrameSourceKind) {
       {"side_by_side", FrameSourceKind::kSideBySide},
       {"colour_and_depth", FrameSourceKind::kColourAndDepth},
       {"pair_channel", FrameSourceKind::kPairChannel},
-      {"kinect_channel", FrameSourceKind::kKinectChannel}};
+      {"kinect_channel", FrameSourceKind::kKinectChannel},
+      {"dimos", FrameSourceKind::kDimos}};
 }
 
-/// Whether frames of that kind are sent by others.
+/// Whether frames of that kind are sent by others, whole.
 bool ComesFromBus(FrameSourceKind kind);
 
 capture::SourceConfig LeftSourceDefaults();
@@ -53,8 +55,8 @@ struct FrameSourceConfig {
   void Check(config::Faults& faults) const;
 };
 
-/// Opens what `config` names: the one place that knows all kinds. nullptr when the frames come from
-/// the bus. Throws ConfigError, with the cure, when something cannot be opened.
+/// Opens what `config` names. nullptr when the frames come from the bus, whole; of a dimos robot
+/// see DimosSource. Throws ConfigError, with the cure, when something cannot be opened.
 std::unique_ptr<FrameSource> MakeFrameSource(const FrameSourceConfig& config,
                                              const capture::Clocks& clocks);
 
