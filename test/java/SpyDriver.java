@@ -44,8 +44,8 @@ public final class SpyDriver {
 
   private SpyDriver() throws Exception {
     robot = new Robot();
+    // No waiting for idleness: while messages come, the windows are never idle.
     robot.setAutoDelay(30);
-    robot.setAutoWaitForIdle(true);
   }
 
   /** Ends with the last command. */
