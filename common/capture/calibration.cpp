@@ -29,17 +29,12 @@ CalibrationAnswer Guess(cv::Size size, double horizontal_fov_deg) {
               " deg; set calibration.file"};
 }
 
-// The origin is the centre of the top-left pixel, so a scaled picture's centres shift by half a
-// pixel.
-CameraCalibration Scaled(CameraCalibration calibration, cv::Size size) {
-  const Eigen::Array2d scale(static_cast<double>(size.width) / calibration.width_px,
-                             static_cast<double>(size.height) / calibration.height_px);
-  calibration.focal_px.array() *= scale;
-  calibration.principal_point_px =
-      ((calibration.principal_point_px.array() + 0.5) * scale - 0.5).matrix();
-  calibration.width_px = size.width;
-  calibration.height_px = size.height;
-  return calibration;
+// Time, name and mount apart.
+bool IsSameLens(const CameraCalibration& a, const CameraCalibration& b) {
+  return a.width_px == b.width_px && a.height_px == b.height_px &&
+         a.distortion_model == b.distortion_model && a.distortion == b.distortion &&
+         a.focal_px == b.focal_px && a.principal_point_px == b.principal_point_px &&
+         a.rectification == b.rectification;
 }
 
 }  // namespace
@@ -78,16 +73,29 @@ CalibrationAnswer AtSize(const LensFile& lens, cv::Size size) {
                               Text(size.width, size.height) +
                               ", another aspect; calibrate at this size or change the camera's");
   }
-  return {Scaled(calibration, size), "calibration scaled from " + stated};
+  return {geometry::Scaled(calibration, size.width, size.height),
+          "calibration scaled from " + stated};
 }
 
 Calibration::Calibration(const CalibrationConfig& config) : config_(config) {
   if (!config.file.empty()) lens_ = ReadLensFile(config::FindConfig(config.file).string());
 }
 
+bool Calibration::UseOwn(const CameraCalibration& lens) {
+  if (lens_ || (own_ && IsSameLens(*own_, lens))) return false;
+  own_ = lens;
+  return true;
+}
+
 CalibrationAnswer Calibration::For(cv::Size size) const {
-  if (!lens_) return Guess(size, config_.horizontal_fov_deg);
-  return AtSize(*lens_, size);
+  if (lens_) return AtSize(*lens_, size);
+  if (own_ && HasSameAspect(*own_, size)) return AtSize({"the camera's own lens", *own_}, size);
+  CalibrationAnswer answer = Guess(size, config_.horizontal_fov_deg);
+  if (own_) {
+    answer.remark += "; the camera's own lens is for " + std::to_string(own_->width_px) + "x" +
+                     std::to_string(own_->height_px) + ", another aspect";
+  }
+  return answer;
 }
 
 }  // namespace deixis::capture

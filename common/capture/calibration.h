@@ -45,19 +45,26 @@ bool HasSameAspect(const geometry::CameraCalibration& calibration, cv::Size size
 /// same aspect. Throws ConfigError when the aspect is another one.
 CalibrationAnswer AtSize(const LensFile& lens, cv::Size size);
 
-/// Knows the camera's lens for any image size.
+/// Knows the camera's lens for any image size: from a file, as the camera itself says it, or
+/// guessed, in this order.
 class Calibration {
  public:
   /// Reads the file, if one is named. Throws ConfigError.
   explicit Calibration(const CalibrationConfig& config);
 
-  /// The lens of pictures of `size`: as in the file, scaled when they have another size of the same
-  /// aspect, or guessed without a file. Throws ConfigError when the aspect is another one.
+  /// Takes the lens as the camera says it of itself. Returns whether answers differ from now on:
+  /// not when a file is named, or nothing but its time, name and mount is new.
+  bool UseOwn(const geometry::CameraCalibration& lens);
+
+  /// The lens of pictures of `size`: as in the file or as the camera says it, scaled when they have
+  /// another size of the same aspect, or guessed. Throws ConfigError when the file's aspect is
+  /// another one; a camera's own lens of another aspect is left out, with a remark.
   CalibrationAnswer For(cv::Size size) const;
 
  private:
   CalibrationConfig config_;
   std::optional<LensFile> lens_;
+  std::optional<geometry::CameraCalibration> own_;  ///< As the camera says it of itself.
 };
 
 }  // namespace deixis::capture

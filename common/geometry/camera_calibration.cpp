@@ -19,4 +19,17 @@ CameraCalibration GuessCalibration(int width_px, int height_px, double horizonta
   return calibration;
 }
 
+// The origin is the centre of the top-left pixel, so a scaled picture's centres shift by half a
+// pixel.
+CameraCalibration Scaled(CameraCalibration calibration, int width_px, int height_px) {
+  const Eigen::Array2d scale(static_cast<double>(width_px) / calibration.width_px,
+                             static_cast<double>(height_px) / calibration.height_px);
+  calibration.focal_px.array() *= scale;
+  calibration.principal_point_px =
+      ((calibration.principal_point_px.array() + 0.5) * scale - 0.5).matrix();
+  calibration.width_px = width_px;
+  calibration.height_px = height_px;
+  return calibration;
+}
+
 }  // namespace deixis::geometry

@@ -33,4 +33,7 @@ struct CameraCalibration {
 /// not calibrated. Throws std::invalid_argument on a size or an angle that no camera has.
 CameraCalibration GuessCalibration(int width_px, int height_px, double horizontal_fov_rad);
 
+/// The same camera for the same view in pictures of another size.
+CameraCalibration Scaled(CameraCalibration calibration, int width_px, int height_px);
+
 }  // namespace deixis::geometry

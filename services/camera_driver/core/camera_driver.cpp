@@ -10,14 +10,6 @@ namespace {
 
 constexpr double kCalibrationPeriod_s = 1.0;
 
-// Time, name and mount apart.
-bool IsSameLens(const geometry::CameraCalibration& a, const geometry::CameraCalibration& b) {
-  return a.width_px == b.width_px && a.height_px == b.height_px &&
-         a.distortion_model == b.distortion_model && a.distortion == b.distortion &&
-         a.focal_px == b.focal_px && a.principal_point_px == b.principal_point_px &&
-         a.rectification == b.rectification;
-}
-
 }  // namespace
 
 void CameraDriverConfig::Check(config::Faults& faults) const {
@@ -64,21 +56,7 @@ capture::SourceState CameraDriver::Fetch() {
 bool CameraDriver::IsDue(Timestamp now) { return is_live_ || pacer_.IsDue(waiting_->time, now); }
 
 void CameraDriver::UseLens(const geometry::CameraCalibration& lens) {
-  if (!config_.calibration.file.empty() || (own_lens_ && IsSameLens(*own_lens_, lens))) return;
-  own_lens_ = lens;
-  is_own_lens_new_ = true;
-}
-
-capture::CalibrationAnswer CameraDriver::LensFor(cv::Size size) const {
-  if (own_lens_ && capture::HasSameAspect(*own_lens_, size)) {
-    return capture::AtSize({"the camera's own lens", *own_lens_}, size);
-  }
-  capture::CalibrationAnswer answer = calibration_.For(size);
-  if (own_lens_) {
-    answer.remark += "; the camera's own lens is for " + std::to_string(own_lens_->width_px) + "x" +
-                     std::to_string(own_lens_->height_px) + ", another aspect";
-  }
-  return answer;
+  if (calibration_.UseOwn(lens)) is_own_lens_new_ = true;
 }
 
 std::optional<geometry::CameraCalibration> CameraDriver::CalibrationIfDue(
@@ -90,7 +68,8 @@ std::optional<geometry::CameraCalibration> CameraDriver::CalibrationIfDue(
       calibration_sent_ &&
       std::abs(SecondsBetween(*calibration_sent_, picture.time)) < kCalibrationPeriod_s;
   if (has_same_size && is_recent && !is_own_lens_new_) return std::nullopt;
-  if (!has_same_size || is_own_lens_new_) lens_ = LensFor({picture.width_px, picture.height_px});
+  if (!has_same_size || is_own_lens_new_)
+    lens_ = calibration_.For({picture.width_px, picture.height_px});
   is_own_lens_new_ = false;
   lens_.calibration.camera = config_.camera;
   lens_.calibration.time = picture.time;

@@ -62,7 +62,6 @@ class CameraDriver {
  private:
   capture::SourceState Fetch();
   bool IsDue(Timestamp now);
-  capture::CalibrationAnswer LensFor(cv::Size size) const;
   std::optional<geometry::CameraCalibration> CalibrationIfDue(const images::EncodedImage& picture);
 
   CameraDriverConfig config_;
@@ -72,7 +71,6 @@ class CameraDriver {
   bool is_live_;
   std::optional<capture::Picture> waiting_;  ///< Recorded picture whose time has not come.
   capture::CalibrationAnswer lens_;
-  std::optional<geometry::CameraCalibration> own_lens_;  ///< What the camera says of itself.
   bool is_own_lens_new_ = false;
   std::optional<Timestamp> calibration_sent_;
 };

@@ -16,17 +16,6 @@ using geometry::CameraCalibration;
 // Distances of one surface within 2x2 pixels differ by less, as a share of the distance.
 constexpr double kAgreeShare = 0.03;
 
-/// Of the same view in pictures of another size.
-CameraCalibration AtSize(CameraCalibration lens, cv::Size size) {
-  const Eigen::Array2d scale(static_cast<double>(size.width) / lens.width_px,
-                             static_cast<double>(size.height) / lens.height_px);
-  lens.focal_px.array() *= scale;
-  lens.principal_point_px = ((lens.principal_point_px.array() + 0.5) * scale - 0.5).matrix();
-  lens.width_px = size.width;
-  lens.height_px = size.height;
-  return lens;
-}
-
 void MakeMaps(const CameraCalibration& lens, const CameraCalibration& rectified, int map_type,
               cv::Mat& map_x, cv::Mat& map_y) {
   const cv::Size size(rectified.width_px, rectified.height_px);
@@ -106,7 +95,8 @@ const RectifiedDepth& DepthCamera::Rectify(const images::RgbdImage& image) {
 
 void DepthCamera::PrepareDepthMaps(cv::Size size) {
   if (size == depth_map_size_) return;
-  MakeMaps(AtSize(calibration_.left, size), AtSize(calibration_.rectified, size), CV_32FC1,
+  MakeMaps(geometry::Scaled(calibration_.left, size.width, size.height),
+           geometry::Scaled(calibration_.rectified, size.width, size.height), CV_32FC1,
            depth_map_x_, depth_map_y_);
   depth_map_size_ = size;
 }

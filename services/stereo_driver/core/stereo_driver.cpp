@@ -64,12 +64,6 @@ void Stamp(Timestamp time, const std::string& camera, geometry::StereoCalibratio
   calibration.right.camera = camera + ".right";
 }
 
-bool HasSameLens(const geometry::CameraCalibration& a, const geometry::CameraCalibration& b) {
-  return a.width_px == b.width_px && a.height_px == b.height_px && a.focal_px == b.focal_px &&
-         a.principal_point_px == b.principal_point_px && a.distortion == b.distortion &&
-         a.distortion_model == b.distortion_model;
-}
-
 bool IsOfSize(const geometry::StereoCalibration& calibration, cv::Size size) {
   return calibration.left.width_px == size.width && calibration.left.height_px == size.height;
 }
@@ -160,25 +154,12 @@ void StereoDriver::PrepareRig(cv::Size size) {
 }
 
 void StereoDriver::UseLens(const geometry::CameraCalibration& lens) {
-  if (!config_.depth_camera.calibration.file.empty()) return;
-  if (foreign_lens_ && HasSameLens(*foreign_lens_, lens)) return;
-  foreign_lens_ = lens;
-  depth_camera_.reset();
-}
-
-capture::CalibrationAnswer StereoDriver::LensFor(cv::Size size) const {
-  if (!foreign_lens_) return lens_->For(size);
-  if (!capture::HasSameAspect(*foreign_lens_, size)) {
-    auto answer = lens_->For(size);
-    answer.remark = "the robot's lens is for pictures of another aspect; " + answer.remark;
-    return answer;
-  }
-  return capture::AtSize({"the robot's lens", *foreign_lens_}, size);
+  if (lens_ && lens_->UseOwn(lens)) depth_camera_.reset();
 }
 
 void StereoDriver::PrepareDepthCamera(cv::Size size) {
   if (depth_camera_ && IsOfSize(calibration_, size)) return;
-  auto [lens, remark] = LensFor(size);
+  auto [lens, remark] = lens_->For(size);
   calibration_ = AsStereo(lens, config_.depth_camera.depth_sigma_m_at_1m);
   depth_camera_.emplace(calibration_, config_.matcher.depth_size);
   remark_ = std::move(remark);

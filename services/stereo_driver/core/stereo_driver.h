@@ -105,7 +105,6 @@ class StereoDriver {
   StereoOutput ConvertAt(Timestamp time, Frame frame);
   void PrepareRig(cv::Size size);
   void PrepareDepthCamera(cv::Size size);
-  capture::CalibrationAnswer LensFor(cv::Size size) const;
   StereoOutput Packed(const RectifiedDepth& depth, Timestamp time);
   std::optional<geometry::StereoCalibration> CalibrationIfDue(Timestamp time);
 
@@ -118,8 +117,7 @@ class StereoDriver {
 
   std::optional<RigCalibration> rig_;         ///< For pairs.
   std::optional<capture::Calibration> lens_;  ///< For colour and depth.
-  std::optional<geometry::CameraCalibration> foreign_lens_;
-  geometry::StereoCalibration calibration_;  ///< Of the frames that come now.
+  geometry::StereoCalibration calibration_;   ///< Of the frames that come now.
   std::string remark_;
   std::optional<StereoMatcher> matcher_;
   std::optional<DepthCamera> depth_camera_;
