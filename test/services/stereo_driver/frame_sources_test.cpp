@@ -18,6 +18,7 @@ using capture::ScriptedSource;
 using capture::SourceState;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 std::unique_ptr<capture::Source> Script(const std::vector<std::int64_t>& times_ms) {
   std::vector<Picture> pictures;
@@ -25,10 +26,28 @@ std::unique_ptr<capture::Source> Script(const std::vector<std::int64_t>& times_m
   return std::make_unique<ScriptedSource>(std::move(pictures));
 }
 
+/// A picture every 100 ms, as often as one is asked for; complains when that has no end.
+class EndlessSource final : public capture::Source {
+ public:
+  explicit EndlessSource(std::int64_t first_ms, cv::Size size = {64, 48})
+      : first_ms_(first_ms), size_(size) {}
+
+  capture::Grab Next() override {
+    if (pictures_ == 1000) throw std::logic_error("asked for pictures without end");
+    return {SourceState::kPicture, PictureAt(1000 * (first_ms_ + 100 * pictures_++), size_)};
+  }
+  capture::SourceStatus status() const override { return {}; }
+
+ private:
+  std::int64_t first_ms_;
+  cv::Size size_;
+  int pictures_ = 0;
+};
+
 std::vector<std::int64_t> TimesOf(FrameSource& source) {
   std::vector<std::int64_t> times_ms;
-  for (FrameGrab grab = source.Next(); grab.frame; grab = source.Next()) {
-    times_ms.push_back(grab.frame->time.microseconds / 1000);
+  for (FrameGrab grab = source.Next(); grab.state != SourceState::kFinished; grab = source.Next()) {
+    if (grab.frame) times_ms.push_back(grab.frame->time.microseconds / 1000);
   }
   return times_ms;
 }
@@ -63,6 +82,19 @@ TEST(MatchedSource, SaysTheTroubleOfEither) {
   EXPECT_EQ(source.status().pictures.trouble, "right camera is lost");
 }
 
+TEST(MatchedSource, ReturnsThoughNoTimesMatch) {
+  MatchedSource source(std::make_unique<EndlessSource>(0), std::make_unique<EndlessSource>(50),
+                       0.010, ComposePair);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(source.Next().state, SourceState::kWaiting);
+}
+
+TEST(MatchedSource, ReturnsThoughNoPicturesMakeAFrame) {
+  MatchedSource source(std::make_unique<EndlessSource>(0),
+                       std::make_unique<EndlessSource>(0, cv::Size(32, 24)), 0.010, ComposePair);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(source.Next().state, SourceState::kWaiting);
+  EXPECT_EQ(source.status().unusable, 3);
+}
+
 std::unique_ptr<capture::Source> Halves(int width) {
   Picture picture = PictureAt(5000, {width, 4});
   picture.bgr.colRange(0, width / 2) = cv::Scalar(1, 1, 1);
@@ -90,8 +122,14 @@ TEST(SideBySideSource, TakesTheLeftViewFromTheRightHalfWhenTold) {
 
 TEST(SideBySideSource, PassesOverPicturesOfAnOddWidth) {
   SideBySideSource source(Halves(13), LeftHalf::kLeft);
-  EXPECT_EQ(source.Next().state, SourceState::kFinished);
+  EXPECT_THAT(TimesOf(source), IsEmpty());
   EXPECT_EQ(source.status().unusable, 1);
+}
+
+TEST(SideBySideSource, ReturnsThoughNoPictureMakesAFrame) {
+  SideBySideSource source(std::make_unique<EndlessSource>(0, cv::Size(13, 4)), LeftHalf::kLeft);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(source.Next().state, SourceState::kWaiting);
+  EXPECT_EQ(source.status().unusable, 3);
 }
 
 capture::Clocks NoClocks() {

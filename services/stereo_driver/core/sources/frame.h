@@ -32,7 +32,8 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The next frame, if there is one. Never waits for a camera.
+  /// The next frame, if there is one. Never waits for a camera, and asks each for one picture at
+  /// most, so that it returns however many make no frame: these yield kWaiting.
   virtual FrameGrab Next() = 0;
 
   virtual FrameSourceStatus status() const = 0;

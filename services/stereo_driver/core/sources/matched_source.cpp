@@ -44,15 +44,13 @@ MatchedSource::MatchedSource(std::unique_ptr<Source> left, std::unique_ptr<Sourc
       matcher_(max_skew_s) {}
 
 FrameGrab MatchedSource::Next() {
-  while (true) {
-    if (auto frame = NextMatch()) return {SourceState::kPicture, std::move(frame)};
-    const bool has_left = FetchLeft();
-    const bool has_right = FetchRight();
-    if (has_left || has_right) continue;
-    if (!HasEnded()) return {SourceState::kWaiting, std::nullopt};
-    matcher_.Finish();
-    return {SourceState::kFinished, std::nullopt};
-  }
+  if (auto frame = NextMatch()) return {SourceState::kPicture, std::move(frame)};
+  FetchLeft();
+  FetchRight();
+  if (auto frame = NextMatch()) return {SourceState::kPicture, std::move(frame)};
+  if (!HasEnded()) return {SourceState::kWaiting, std::nullopt};
+  matcher_.Finish();
+  return {SourceState::kFinished, std::nullopt};
 }
 
 std::optional<Frame> MatchedSource::NextMatch() {
@@ -63,20 +61,18 @@ std::optional<Frame> MatchedSource::NextMatch() {
   return std::nullopt;
 }
 
-bool MatchedSource::FetchLeft() {
-  if (!IsWanted(*left_, left_state_, matcher_.first_waits())) return false;
+void MatchedSource::FetchLeft() {
+  if (!IsWanted(*left_, left_state_, matcher_.first_waits())) return;
   capture::Grab grab = left_->Next();
   left_state_ = grab.state;
   if (grab.picture) matcher_.AddFirst(grab.picture->time, std::move(*grab.picture));
-  return left_state_ == SourceState::kPicture;
 }
 
-bool MatchedSource::FetchRight() {
-  if (!IsWanted(*right_, right_state_, matcher_.second_waits())) return false;
+void MatchedSource::FetchRight() {
+  if (!IsWanted(*right_, right_state_, matcher_.second_waits())) return;
   capture::Grab grab = right_->Next();
   right_state_ = grab.state;
   if (grab.picture) matcher_.AddSecond(grab.picture->time, std::move(*grab.picture));
-  return right_state_ == SourceState::kPicture;
 }
 
 // When one recording is over, nothing more can be matched.

@@ -22,8 +22,8 @@ class MatchedSource final : public FrameSource {
 
  private:
   std::optional<Frame> NextMatch();
-  bool FetchLeft();
-  bool FetchRight();
+  void FetchLeft();
+  void FetchRight();
   bool HasEnded() const;
 
   std::unique_ptr<capture::Source> left_;

@@ -10,12 +10,11 @@ SideBySideSource::SideBySideSource(std::unique_ptr<capture::Source> source, Left
     : source_(std::move(source)), left_half_(left_half) {}
 
 FrameGrab SideBySideSource::Next() {
-  while (true) {
-    const capture::Grab grab = source_->Next();
-    if (!grab.picture) return {grab.state, std::nullopt};
-    if (auto frame = Split(*grab.picture)) return {SourceState::kPicture, std::move(frame)};
-    ++unusable_;
-  }
+  const capture::Grab grab = source_->Next();
+  if (!grab.picture) return {grab.state, std::nullopt};
+  if (auto frame = Split(*grab.picture)) return {SourceState::kPicture, std::move(frame)};
+  ++unusable_;
+  return {SourceState::kWaiting, std::nullopt};
 }
 
 FrameSourceStatus SideBySideSource::status() const { return {source_->status(), 0, 0, unusable_}; }
