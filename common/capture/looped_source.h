@@ -2,12 +2,14 @@
 #include <functional>
 #include <memory>
 
+#include "common/capture/rounds.h"
 #include "common/capture/source.h"
 
 namespace deixis::capture {
 
 /// A recording without end: opened again whenever it is over. Time goes on: the first picture of a
-/// round comes one period after the last one of the round before.
+/// round comes one period after the last one of the round before. Recordings whose pictures are
+/// paired must not be looped one by one: they would drift apart by the difference of their lengths.
 class LoopedSource final : public Source {
  public:
   explicit LoopedSource(std::function<std::unique_ptr<Source>()> open);
@@ -17,15 +19,12 @@ class LoopedSource final : public Source {
   SourceStatus status() const override;
 
  private:
-  Grab ShiftToThisRound(Grab grab);
   void BeginNextRound();
 
   std::function<std::unique_ptr<Source>()> open_;
   std::unique_ptr<Source> source_;
-  std::int64_t corrupt_before_ = 0;  ///< Corrupt pictures of the earlier rounds.
-  std::int64_t pictures_in_round_ = 0;
-  Timestamp round_start_;
-  Timestamp next_round_start_;
+  SourceStatus before_;  ///< What the earlier rounds have counted.
+  Rounds rounds_;
 };
 
 }  // namespace deixis::capture

@@ -43,6 +43,14 @@ struct SourceStatus {
   std::string last_corrupt;  ///< File of the last one of these; empty when it has none of its own.
 };
 
+/// `now` with what has been counted before it, of the same recording opened earlier.
+inline SourceStatus WithEarlier(const SourceStatus& earlier, SourceStatus now) {
+  now.skipped += earlier.skipped;
+  now.corrupt += earlier.corrupt;
+  if (now.last_corrupt.empty()) now.last_corrupt = earlier.last_corrupt;
+  return now;
+}
+
 /// Where pictures come from: a camera, a stream, a file, a folder.
 class Source {
  public:

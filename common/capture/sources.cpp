@@ -11,8 +11,8 @@
 namespace deixis::capture {
 namespace {
 
-std::unique_ptr<Source> OpenOnce(const SourceConfig& config, const Clocks& clocks,
-                                 FolderContent content) {
+std::unique_ptr<Source> Open(const SourceConfig& config, const Clocks& clocks,
+                             FolderContent content) {
   switch (config.kind) {
     case SourceKind::kDevice:
       return std::make_unique<LiveSource>(DeviceCapture(config, clocks), clocks.monotonic);
@@ -30,12 +30,6 @@ std::unique_ptr<Source> OpenOnce(const SourceConfig& config, const Clocks& clock
   throw std::logic_error("unknown source kind");
 }
 
-std::unique_ptr<Source> Open(const SourceConfig& config, const Clocks& clocks,
-                             FolderContent content) {
-  const auto open = [config, clocks, content] { return OpenOnce(config, clocks, content); };
-  return config.loop ? std::make_unique<LoopedSource>(open) : open();
-}
-
 }  // namespace
 
 void SourceConfig::Check(config::Faults& faults) const {
@@ -47,12 +41,21 @@ void SourceConfig::Check(config::Faults& faults) const {
   faults.Require(fourcc.empty() || fourcc.size() == 4, key + ".fourcc",
                  "must be empty or four letters such as MJPG");
   faults.Require(!pattern.empty(), key + ".pattern", "is empty; '*' takes every picture");
-  const bool is_recording = kind == SourceKind::kVideo || kind == SourceKind::kFolder;
-  faults.Require(!loop || is_recording, key + ".loop", "is only for kind video and folder");
+}
+
+void LoopableSourceConfig::Check(config::Faults& faults) const {
+  SourceConfig::Check(faults);
+  faults.Require(!loop || IsRecording(*this), key + ".loop", "is only for kind video and folder");
 }
 
 std::unique_ptr<Source> MakeSource(const SourceConfig& config, const Clocks& clocks) {
   return Open(config, clocks, FolderContent::kColour);
+}
+
+std::unique_ptr<Source> MakeSource(const LoopableSourceConfig& config, const Clocks& clocks) {
+  const SourceConfig& once = config;
+  if (!config.loop) return MakeSource(once, clocks);
+  return std::make_unique<LoopedSource>([once, clocks] { return MakeSource(once, clocks); });
 }
 
 std::unique_ptr<Source> MakeDepthSource(const SourceConfig& config, const Clocks& clocks) {

@@ -31,7 +31,6 @@ struct SourceConfig {
   double rate_hz = 0.0;  ///< Device: asked of it. Recordings: replaces their times. 0 = their own.
   std::string fourcc;  ///< Pixel format asked of a device: "MJPG", "YUYV". Empty = its own choice.
   std::string pattern = "*";  ///< Folder: which file names, as a shell would match them.
-  bool loop = false;          ///< Recordings: begin again at the end; time goes on.
   /// Where this stands in the configuration, for messages; not a setting.
   std::string key = "source";
 
@@ -44,15 +43,31 @@ struct SourceConfig {
     v("rate_hz", rate_hz);
     v("fourcc", fourcc);
     v("pattern", pattern);
-    v("loop", loop);
   }
   void Check(config::Faults& faults) const;  ///< Notes what is wrong under "<key>.<setting>".
+};
+
+inline bool IsRecording(const SourceConfig& config) {
+  return config.kind == SourceKind::kVideo || config.kind == SourceKind::kFolder;
+}
+
+/// A source on its own, which nothing keeps from beginning again.
+struct LoopableSourceConfig : SourceConfig {
+  bool loop = false;  ///< Recordings: begin again at the end; time goes on.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    SourceConfig::Visit(v);
+    v("loop", loop);
+  }
+  void Check(config::Faults& faults) const;
 };
 
 /// Opens what `config` names: the one place that knows all kinds of sources. Throws ConfigError,
 /// with the cure, when it cannot be opened, as pictures of a dimos robot cannot: they come over the
 /// bus, to which services subscribe.
 std::unique_ptr<Source> MakeSource(const SourceConfig& config, const Clocks& clocks);
+std::unique_ptr<Source> MakeSource(const LoopableSourceConfig& config, const Clocks& clocks);
 
 /// The same for a folder of 16-bit depth pictures: Picture::depth is set, not Picture::bgr.
 std::unique_ptr<Source> MakeDepthSource(const SourceConfig& config, const Clocks& clocks);

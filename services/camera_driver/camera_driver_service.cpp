@@ -14,7 +14,7 @@ namespace deixis::camera_driver {
 namespace {
 
 // OpenCV would say a page on every way in which it failed to open something; ours is one line.
-std::unique_ptr<capture::Source> OpenQuietly(const capture::SourceConfig& config) {
+std::unique_ptr<capture::Source> OpenQuietly(const capture::LoopableSourceConfig& config) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   return capture::MakeSource(config, capture::SystemClocks());
 }

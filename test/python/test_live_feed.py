@@ -18,7 +18,7 @@ def test_a_clip_goes_through_the_camera_driver(tmp_path: Path) -> None:
     feed = camera_feed(clip, 30.0)
     assert (feed.driver, feed.channel) == ("camera_driver", "CAMERA")
     assert f"source.path={clip}" in feed.settings
-    assert "source.rate_hz=30.0" in feed.settings
+    assert {"source.rate_hz=30.0", "source.loop=true"} <= set(feed.settings)
 
 
 def test_a_pair_goes_through_the_stereo_driver(tmp_path: Path) -> None:
@@ -27,6 +27,7 @@ def test_a_pair_goes_through_the_stereo_driver(tmp_path: Path) -> None:
     feed = stereo_feed(tmp_path, 15.0)
     assert (feed.driver, feed.channel) == ("stereo_driver", "STEREO")
     assert f"source.right.path={tmp_path / 'right.mp4'}" in feed.settings
+    assert "source.loop=true" in feed.settings
     assert f"calibration.extrinsics={tmp_path / 'extrinsics.yml'}" in feed.settings
 
 

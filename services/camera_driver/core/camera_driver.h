@@ -14,7 +14,7 @@ namespace deixis::camera_driver {
 
 struct CameraDriverConfig {
   std::string camera = "CAMERA";                ///< Name of the camera in all messages.
-  capture::SourceConfig source;                 ///< Where pictures come from.
+  capture::LoopableSourceConfig source;         ///< Where pictures come from.
   capture::Pace pace = capture::Pace::kByTime;  ///< How fast a recording is played.
   std::int64_t start_time_utime = -1;           ///< Recordings: see Pacer.
   capture::CalibrationConfig calibration;       ///< What is known of the lens.

@@ -196,6 +196,66 @@ TEST_F(ColourAndDepthTest, NamesTheKeyOfAFolderThatIsNotThere) {
               testing::ThrowsMessage<config::ConfigError>(HasSubstr("set source.right.path")));
 }
 
+/// Two recordings whose pictures' grey values count from 1.
+class LoopTest : public testing::Test {
+ protected:
+  LoopTest() {
+    config_.loop = true;
+    for (auto* source : {&config_.left, &config_.right}) {
+      source->kind = capture::SourceKind::kFolder;
+      source->path = folder_.path().string();
+      source->rate_hz = 10.0;
+    }
+    config_.left.pattern = "left*";
+    config_.right.pattern = "right*";
+  }
+
+  void WritePictures(const std::string& side, int count, cv::Size size = {8, 6}) {
+    for (int i = 1; i <= count; ++i) {
+      const std::string name = side + std::to_string(i) + ".png";
+      cv::imwrite((folder_.path() / name).string(), cv::Mat(size, CV_8UC3, cv::Scalar::all(i)));
+    }
+  }
+
+  test::TemporaryFolder folder_;
+  FrameSourceConfig config_;
+};
+
+TEST_F(LoopTest, KeepsPairsTogetherWhenOneRecordingIsLonger) {
+  WritePictures("left", 3);
+  WritePictures("right", 2);
+  const auto source = MakeFrameSource(config_, NoClocks());
+  std::vector<std::int64_t> times_ms;
+  for (int asked = 0; times_ms.size() < 6 && asked < 100; ++asked) {
+    const FrameGrab grab = source->Next();
+    if (!grab.frame) continue;
+    const auto& pair = std::get<images::StereoPair>(grab.frame->images);
+    EXPECT_EQ(FirstValue(pair.left.bgr), FirstValue(pair.right.bgr));
+    times_ms.push_back(grab.frame->time.microseconds / 1000);
+  }
+  EXPECT_THAT(times_ms, ElementsAre(0, 100, 200, 300, 400, 500));
+  EXPECT_EQ(source->status().unmatched_left, 2);  // The third one of both rounds before.
+}
+
+TEST_F(LoopTest, EndsWhenARoundGaveNoFrame) {
+  config_.kind = FrameSourceKind::kSideBySide;
+  WritePictures("left", 2, {13, 4});
+  const auto source = MakeFrameSource(config_, NoClocks());
+  EXPECT_THAT(TimesOf(*source), IsEmpty());
+  EXPECT_EQ(source->status().unusable, 2);
+}
+
+TEST(FrameSourceConfig, LoopsNothingThatIsSentByOthers) {
+  FrameSourceConfig config;
+  config.kind = FrameSourceKind::kPairChannel;
+  config.left.kind = config.right.kind = capture::SourceKind::kVideo;
+  config.loop = true;
+  config::Faults faults;
+  config.Check(faults);
+  EXPECT_THAT([&] { faults.ThrowIfAny(); },
+              testing::ThrowsMessage<config::FaultsFound>(HasSubstr("source.loop")));
+}
+
 TEST(FrameSourceConfig, TakesTwoRecordingsOrTwoLiveCameras) {
   FrameSourceConfig config;
   config.left.kind = capture::SourceKind::kVideo;

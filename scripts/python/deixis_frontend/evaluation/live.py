@@ -46,7 +46,8 @@ def camera_feed(clip: Path, rate_hz: float) -> Feed:
     """One video in a loop."""
     if not clip.is_file():
         raise UserError(f"no clip {clip}: name one with --clip")
-    return Feed("camera_driver", "CAMERA", _video("source", clip, rate_hz), clip.name)
+    settings = (*_video("source", clip, rate_hz), "source.loop=true")
+    return Feed("camera_driver", "CAMERA", settings, clip.name)
 
 
 def stereo_feed(folder: Path, rate_hz: float) -> Feed:
@@ -56,15 +57,14 @@ def stereo_feed(folder: Path, rate_hz: float) -> Feed:
             raise UserError(f"{folder} lacks {name}: --stereo takes a folder with left.mp4,"
                             " right.mp4, intrinsics.yml and extrinsics.yml")
     settings = (*_video("source.left", folder / "left.mp4", rate_hz),
-                *_video("source.right", folder / "right.mp4", rate_hz),
+                *_video("source.right", folder / "right.mp4", rate_hz), "source.loop=true",
                 f"calibration.intrinsics={(folder / 'intrinsics.yml').resolve()}",
                 f"calibration.extrinsics={(folder / 'extrinsics.yml').resolve()}")
     return Feed("stereo_driver", "STEREO", settings, folder.name)
 
 
 def _video(key: str, clip: Path, rate_hz: float) -> tuple[str, ...]:
-    return (f"{key}.kind=video", f"{key}.path={clip.resolve()}", f"{key}.loop=true",
-            f"{key}.rate_hz={rate_hz}")
+    return (f"{key}.kind=video", f"{key}.path={clip.resolve()}", f"{key}.rate_hz={rate_hz}")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -13,6 +13,7 @@ namespace deixis::stereo_driver {
 struct Frame {
   Timestamp time;  ///< Live: capture time. Recorded: time since the recording began.
   std::variant<images::StereoPair, images::RgbdImage> images;
+  double period_s = 0.0;  ///< Nominal time to the next one; 0 = not known (live).
 };
 
 struct FrameGrab {

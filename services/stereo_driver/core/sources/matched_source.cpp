@@ -88,16 +88,18 @@ FrameSourceStatus MatchedSource::status() const {
 
 std::optional<Frame> ComposePair(const Picture& left, const Picture& right) {
   if (left.bgr.size() != right.bgr.size()) return std::nullopt;
-  return Frame{left.time,
-               images::StereoPair{{left.time, "", left.bgr}, {left.time, "", right.bgr}}};
+  return Frame{left.time, images::StereoPair{{left.time, "", left.bgr}, {left.time, "", right.bgr}},
+               left.period_s};
 }
 
 std::optional<Frame> ComposeColourAndDepth(const Picture& colour, const Picture& depth,
                                            double depth_unit_mm) {
   const cv::Mat depth_mm = InMillimetres(depth.depth, depth_unit_mm);
-  return Frame{colour.time, images::RgbdImage{{colour.time, "", colour.bgr},
-                                              {colour.time, "", depth_mm},
-                                              /*is_registered=*/true}};
+  return Frame{colour.time,
+               images::RgbdImage{{colour.time, "", colour.bgr},
+                                 {colour.time, "", depth_mm},
+                                 /*is_registered=*/true},
+               colour.period_s};
 }
 
 }  // namespace deixis::stereo_driver

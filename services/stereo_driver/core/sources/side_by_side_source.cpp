@@ -26,7 +26,8 @@ std::optional<Frame> SideBySideSource::Split(const capture::Picture& picture) co
   cv::Mat right = picture.bgr.colRange(width, 2 * width);
   if (left_half_ == LeftHalf::kRight) std::swap(left, right);
   return Frame{picture.time,
-               images::StereoPair{{picture.time, "", left}, {picture.time, "", right}}};
+               images::StereoPair{{picture.time, "", left}, {picture.time, "", right}},
+               picture.period_s};
 }
 
 }  // namespace deixis::stereo_driver

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "services/stereo_driver/core/sources/looped_frame_source.h"
 #include "services/stereo_driver/core/sources/matched_source.h"
 #include "services/stereo_driver/core/sources/side_by_side_source.h"
 
@@ -15,8 +16,9 @@ capture::SourceConfig Defaults(const std::string& key, const std::string& path) 
   return config;
 }
 
-bool IsRecording(const capture::SourceConfig& config) {
-  return config.kind == capture::SourceKind::kVideo || config.kind == capture::SourceKind::kFolder;
+bool IsPlayed(const FrameSourceConfig& config) {
+  const bool is_received = ComesFromBus(config.kind) || config.kind == FrameSourceKind::kDimos;
+  return !is_received && capture::IsRecording(config.left);
 }
 
 void CheckColourAndDepth(const FrameSourceConfig& config, config::Faults& faults) {
@@ -26,30 +28,8 @@ void CheckColourAndDepth(const FrameSourceConfig& config, config::Faults& faults
                  "must be folder for source.kind colour_and_depth");
 }
 
-}  // namespace
-
-bool ComesFromBus(FrameSourceKind kind) {
-  return kind == FrameSourceKind::kPairChannel || kind == FrameSourceKind::kKinectChannel;
-}
-
-capture::SourceConfig LeftSourceDefaults() { return Defaults("source.left", "0"); }
-capture::SourceConfig RightSourceDefaults() { return Defaults("source.right", "2"); }
-
-void FrameSourceConfig::Check(config::Faults& faults) const {
-  faults.Require(max_skew_s >= 0.0 && max_skew_s <= 1.0, "source.max_skew_s",
-                 "must lie in 0..1 seconds");
-  faults.Require(depth_unit_mm > 0.0 && depth_unit_mm <= 1000.0, "source.depth_unit_mm",
-                 "must be positive, 1000 at most");
-  left.Check(faults);
-  right.Check(faults);
-  if (kind == FrameSourceKind::kColourAndDepth) CheckColourAndDepth(*this, faults);
-  const bool are_both = IsRecording(left) == IsRecording(right);
-  faults.Require(kind != FrameSourceKind::kTwoCameras || are_both, "source.right.kind",
-                 "must be a recording when source.left is one, and live when that is live");
-}
-
-std::unique_ptr<FrameSource> MakeFrameSource(const FrameSourceConfig& config,
-                                             const capture::Clocks& clocks) {
+std::unique_ptr<FrameSource> OpenOnce(const FrameSourceConfig& config,
+                                      const capture::Clocks& clocks) {
   const double unit_mm = config.depth_unit_mm;
   switch (config.kind) {
     case FrameSourceKind::kTwoCameras:
@@ -73,6 +53,36 @@ std::unique_ptr<FrameSource> MakeFrameSource(const FrameSourceConfig& config,
       return nullptr;
   }
   throw std::logic_error("unknown kind of frame source");
+}
+
+}  // namespace
+
+bool ComesFromBus(FrameSourceKind kind) {
+  return kind == FrameSourceKind::kPairChannel || kind == FrameSourceKind::kKinectChannel;
+}
+
+capture::SourceConfig LeftSourceDefaults() { return Defaults("source.left", "0"); }
+capture::SourceConfig RightSourceDefaults() { return Defaults("source.right", "2"); }
+
+void FrameSourceConfig::Check(config::Faults& faults) const {
+  faults.Require(max_skew_s >= 0.0 && max_skew_s <= 1.0, "source.max_skew_s",
+                 "must lie in 0..1 seconds");
+  faults.Require(depth_unit_mm > 0.0 && depth_unit_mm <= 1000.0, "source.depth_unit_mm",
+                 "must be positive, 1000 at most");
+  left.Check(faults);
+  right.Check(faults);
+  faults.Require(!loop || IsPlayed(*this), "source.loop",
+                 "is only for recordings: source.left.kind video or folder");
+  if (kind == FrameSourceKind::kColourAndDepth) CheckColourAndDepth(*this, faults);
+  const bool are_both = capture::IsRecording(left) == capture::IsRecording(right);
+  faults.Require(kind != FrameSourceKind::kTwoCameras || are_both, "source.right.kind",
+                 "must be a recording when source.left is one, and live when that is live");
+}
+
+std::unique_ptr<FrameSource> MakeFrameSource(const FrameSourceConfig& config,
+                                             const capture::Clocks& clocks) {
+  if (!config.loop) return OpenOnce(config, clocks);
+  return std::make_unique<LoopedFrameSource>([config, clocks] { return OpenOnce(config, clocks); });
 }
 
 }  // namespace deixis::stereo_driver

@@ -39,6 +39,7 @@ struct FrameSourceConfig {
   FrameSourceKind kind = FrameSourceKind::kTwoCameras;  ///< What the frames are made of.
   capture::SourceConfig left = LeftSourceDefaults();    ///< Left or only camera, or colour.
   capture::SourceConfig right = RightSourceDefaults();  ///< Right camera, or depth.
+  bool loop = false;              ///< Recordings: begin again at the end of either; time goes on.
   double max_skew_s = 0.010;      ///< Pictures further apart are no pair; below half the period.
   bool is_left_on_right = false;  ///< Side by side: the left camera's view is the right half.
   double depth_unit_mm = 1.0;     ///< Colour and depth: what one step of the 16 bits means.
@@ -48,6 +49,7 @@ struct FrameSourceConfig {
     v("kind", kind);
     v("left", left);
     v("right", right);
+    v("loop", loop);
     v("max_skew_s", max_skew_s);
     v("is_left_on_right", is_left_on_right);
     v("depth_unit_mm", depth_unit_mm);
