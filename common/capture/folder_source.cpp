@@ -7,10 +7,12 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <utility>
+
+#include "common/capture/picture_file.h"
+#include "common/images/picture_size.h"
 
 namespace deixis::capture {
 namespace {
@@ -49,17 +51,13 @@ bool IsJpeg(const std::vector<std::uint8_t>& bytes) {
   return bytes.size() > 3 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF;
 }
 
-std::vector<std::uint8_t> ReadBytes(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
+// Larger ones no receiver takes.
+bool IsUsable(const cv::Mat& pixels) { return images::IsPictureSize(pixels.cols, pixels.rows); }
 
 std::optional<Picture> ReadDepth(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = ReadBytes(file);
-  if (bytes.empty()) return std::nullopt;
   Picture picture;
-  picture.depth = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  if (picture.depth.empty() || picture.depth.type() != CV_16UC1) return std::nullopt;
+  picture.depth = DecodePicture(ReadBytes(file), cv::IMREAD_UNCHANGED);
+  if (!IsUsable(picture.depth) || picture.depth.type() != CV_16UC1) return std::nullopt;
   return picture;
 }
 
@@ -67,9 +65,8 @@ std::optional<Picture> ReadPicture(const fs::path& file, FolderContent content) 
   if (content == FolderContent::kDepth) return ReadDepth(file);
   Picture picture;
   picture.jpeg = ReadBytes(file);
-  if (picture.jpeg.empty()) return std::nullopt;
-  picture.bgr = cv::imdecode(picture.jpeg, cv::IMREAD_COLOR);
-  if (picture.bgr.empty()) return std::nullopt;
+  picture.bgr = DecodePicture(picture.jpeg, cv::IMREAD_COLOR);
+  if (!IsUsable(picture.bgr)) return std::nullopt;
   if (!IsJpeg(picture.jpeg)) picture.jpeg.clear();
   return picture;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "common/images/picture_size.h"
 #include "common/messages/dimos_parts.h"
 #include "common/messages/geometry_parts.h"
 
@@ -68,9 +69,8 @@ void FromMount(const CameraCalibration& calibration, camera_calibration_t& messa
 }  // namespace
 
 void RequireSensible(const CameraCalibration& calibration) {
-  const std::int64_t pixels = std::int64_t{calibration.width_px} * calibration.height_px;
-  const bool is_sensible = calibration.width_px > 0 && calibration.height_px > 0 &&
-                           pixels <= kMostPixels && calibration.focal_px.minCoeff() >= 1.0 &&
+  const bool is_sensible = images::IsPictureSize(calibration.width_px, calibration.height_px) &&
+                           calibration.focal_px.minCoeff() >= 1.0 &&
                            HasAllCoefficients(calibration) && IsRotation(calibration.rectification);
   if (!is_sensible) throw Rejected("out_of_range");
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/images/jpeg_check.h"
+#include "common/images/picture_size.h"
 #include "common/messages/wire.h"
 
 namespace deixis::messages {
@@ -82,7 +83,7 @@ cv::Mat DecodePixels(const image_t& message) {
 
 void RequirePictureSize(std::int64_t width_px, std::int64_t height_px) {
   if (width_px <= 0 || height_px <= 0) throw Rejected("bad_image_size");
-  if (width_px * height_px > kMostPixels) throw Rejected("too_large");
+  if (!images::IsPictureSize(width_px, height_px)) throw Rejected("too_large");
 }
 
 cv::Mat DecodeJpeg(const std::vector<std::uint8_t>& jpeg, cv::Size size) {

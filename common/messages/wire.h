@@ -24,7 +24,6 @@ inline constexpr std::int32_t kMostChannels = 1024;
 inline constexpr std::int32_t kMostReasons = 256;
 inline constexpr std::int32_t kMostDistortion = 14;
 inline constexpr std::size_t kLongestText = 1024;  ///< Bytes.
-inline constexpr std::int64_t kMostPixels = 64 * 1024 * 1024;
 /// Of a coordinate, size or speed in the image: far beyond any picture, yet safe as an int.
 inline constexpr double kFarthest_px = 1e6;
 /// Of a coordinate, size or speed in space, metres (per second): safe to square and add up.

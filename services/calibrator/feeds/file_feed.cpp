@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/capture/folder_source.h"
+#include "common/capture/picture_file.h"
 #include "common/config/config.h"
 
 namespace deixis::calibrator {
@@ -71,7 +72,7 @@ Take FileFeed::Next() {
   for (const auto& list : files_) {
     const fs::path& file = list[next_];
     sight.name += (sight.name.empty() ? "" : " + ") + file.filename().string();
-    sight.bgr.push_back(cv::imread(file.string(), cv::IMREAD_COLOR));
+    sight.bgr.push_back(capture::DecodePicture(capture::ReadBytes(file), cv::IMREAD_COLOR));
     if (!sight.bgr.back().empty()) continue;
     ++unreadable_;
     last_unreadable_ = file.string();

@@ -99,6 +99,17 @@ TEST_F(FolderSourceTest, CountsCorruptPicturesAndGoesOn) {
   EXPECT_EQ(source.status().corrupt, 2);
 }
 
+TEST_F(FolderSourceTest, CountsPicturesOfAbsurdSizesAsCorrupt) {
+  folder_.Write("1.ppm", "P6 2097152 1 255 ");                          // OpenCV throws at it.
+  folder_.Write("2.pgm", "P5 70000 1 255 " + std::string(70000, 'x'));  // No JPEG is as wide.
+  AddPicture("3.png", 30);
+  FolderSource source(Config(10.0));
+  EXPECT_THAT(Greys(source), ElementsAre(30));
+  EXPECT_EQ(source.status().corrupt, 2);
+  FolderSource depth(Config(10.0), FolderContent::kDepth);
+  EXPECT_EQ(depth.Next().state, SourceState::kFinished);
+}
+
 TEST_F(FolderSourceTest, NamesAFileOfItsTableThatIsMissing) {
   AddPicture("a.png", 10);
   folder_.Write("times.csv", "file,time_s\na.png,1.0\nb.png,2.0\n");

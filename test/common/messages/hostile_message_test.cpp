@@ -276,6 +276,18 @@ TEST(HostileImage, JpegOfAnotherSizeIsRejected) {
   EXPECT_EQ(ReasonFor<images::EncodedImage>(Encoded(message)), "jpeg_size");
 }
 
+TEST(HostileImage, SidesThatOpenCvCannotWorkOnAreRejected) {
+  auto message = GoodGrey();
+  message.data.assign(40'000, 0);
+  message.size = 40'000;
+  message.row_stride = 0;
+  message.height = 1;
+  message.width = 32'766;
+  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "accepted");
+  message.width = 32'767;
+  EXPECT_EQ(ReasonFor<images::Image>(Encoded(message)), "too_large");
+}
+
 TEST(HostileImage, GarbageInsteadOfJpegIsRejected) {
   auto message = GoodJpeg();
   for (auto& byte : message.data) byte = 0x5A;

@@ -74,6 +74,14 @@ TEST_F(CalibratorFeeds, AFileThatIsNoPictureIsCountedAndNamed) {
   EXPECT_THAT(feed.trouble(), HasSubstr("broken.png"));
 }
 
+TEST_F(CalibratorFeeds, AFileOfAnAbsurdSizeIsCountedAndNamed) {
+  folder_.Write("wide.ppm", "P6 2097152 1 255 ");  // OpenCV throws at it.
+  FileFeed feed({{Path("wide.ppm"), Write("good.png", Picture(9))}});
+  EXPECT_TRUE(feed.Next().sight->bgr[0].empty());
+  EXPECT_FALSE(feed.Next().sight->bgr[0].empty());
+  EXPECT_THAT(feed.trouble(), HasSubstr("wide.ppm"));
+}
+
 TEST_F(CalibratorFeeds, APictureOfTwoCamerasIsCutInTwo) {
   cv::Mat both;
   cv::hconcat(Picture(50), Picture(200), both);
