@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <opencv2/core/mat.hpp>
 
 #include "common/images/encoded_image.h"
@@ -11,5 +12,14 @@ struct StereoImage {
   cv::Mat depth_mm;   ///< CV_16UC1, millimetres along the optical axis, 0 = not measured; its size
                       ///< may be another one than the picture's: it covers the same view.
 };
+
+/// Whether depth of one size may cover the view of a picture of another: their aspects differ by no
+/// more than rounding may have made of one.
+inline bool MayCoverSameView(cv::Size depth, cv::Size picture) {
+  constexpr double kTolerance = 0.02;
+  const double wide = 1.0 * depth.width * picture.height;
+  const double high = 1.0 * depth.height * picture.width;
+  return std::abs(wide - high) <= kTolerance * high;
+}
 
 }  // namespace deixis::images

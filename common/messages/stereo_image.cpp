@@ -1,6 +1,5 @@
 #include "common/messages/stereo_image.h"
 
-#include <cstdlib>
 #include <opencv2/core.hpp>
 #include <utility>
 
@@ -17,13 +16,12 @@ using images::StereoImage;
 
 // Fast: a smaller file would cost several times the time at 640x480.
 constexpr int kDepthCompression = 1;
-// Depth covers the picture's view: its aspect may differ by no more than rounding does.
-constexpr double kAspectTolerance = 0.02;
 
 void RequireSameView(const image_t& left, const image_t& depth) {
-  const double wide = static_cast<double>(depth.width) * left.height;
-  const double high = static_cast<double>(depth.height) * left.width;
-  if (std::abs(wide - high) > kAspectTolerance * high) throw Rejected("depth_of_other_view");
+  const cv::Size picture(left.width, left.height);
+  if (!images::MayCoverSameView({depth.width, depth.height}, picture)) {
+    throw Rejected("depth_of_other_view");
+  }
 }
 
 cv::Mat FromRows(const std::vector<std::uint8_t>& rows, cv::Size size, std::int64_t stride) {

@@ -39,10 +39,11 @@ DriverOutput CameraDriver::Next(Timestamp now) {
     return output;
   }
   const Timestamp time = is_live_ ? waiting_->time : pacer_.CaptureTime(waiting_->time);
+  const capture::Picture picture = std::move(*waiting_);
+  waiting_.reset();  // Whatever comes of it, it is not tried again.
   output.state = capture::SourceState::kPicture;
-  output.picture = capture::Encode(*waiting_, time, config_.camera, config_.image);
+  output.picture = capture::Encode(picture, time, config_.camera, config_.image);
   output.calibration = CalibrationIfDue(*output.picture);
-  waiting_.reset();
   return output;
 }
 

@@ -64,6 +64,18 @@ void Stamp(Timestamp time, const std::string& camera, geometry::StereoCalibratio
   calibration.right.camera = camera + ".right";
 }
 
+std::string Text(cv::Size size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+void RequireSameView(const images::RgbdImage& image) {
+  const cv::Size depth = image.depth.depth_mm.size();
+  const cv::Size picture = image.colour.bgr.size();
+  if (images::MayCoverSameView(depth, picture)) return;
+  throw UnusableFrame("depth of " + Text(depth) + " is of another aspect than its picture of " +
+                      Text(picture));
+}
+
 bool IsOfSize(const geometry::StereoCalibration& calibration, cv::Size size) {
   return calibration.left.width_px == size.width && calibration.left.height_px == size.height;
 }
@@ -113,8 +125,14 @@ StereoStep StereoDriver::Next(Timestamp now) {
     return step;
   }
   const Timestamp time = is_live_ ? waiting_->time : pacer_.CaptureTime(waiting_->time);
-  step.output = ConvertAt(time, std::move(*waiting_));
-  waiting_.reset();
+  Frame frame = std::move(*waiting_);
+  waiting_.reset();  // Whatever comes of it, it is not tried again.
+  try {
+    step.output = ConvertAt(time, std::move(frame));
+  } catch (const UnusableFrame&) {
+    ++unusable_;
+    step.state = SourceState::kWaiting;
+  }
   return step;
 }
 
@@ -140,6 +158,7 @@ StereoOutput StereoDriver::Convert(const images::StereoPair& pair) {
 }
 
 StereoOutput StereoDriver::Convert(const images::RgbdImage& image) {
+  RequireSameView(image);
   PrepareDepthCamera(image.colour.bgr.size());
   return Packed(depth_camera_->Rectify(image), image.colour.time);
 }
@@ -185,9 +204,10 @@ std::optional<geometry::StereoCalibration> StereoDriver::CalibrationIfDue(Timest
 }
 
 FrameSourceStatus StereoDriver::status() const {
-  if (source_) return source_->status();
   FrameSourceStatus status;
   status.pictures.is_live = true;
+  if (source_) status = source_->status();
+  status.unusable += unusable_;
   return status;
 }
 

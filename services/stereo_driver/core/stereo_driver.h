@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "common/capture/calibration.h"
@@ -58,6 +59,12 @@ struct StereoDriverConfig {
   void Check(config::Faults& faults) const;
 };
 
+/// A frame that cannot become a picture with depth, where others of its source may.
+class UnusableFrame : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// What one frame has become.
 struct StereoOutput {
   std::optional<geometry::StereoCalibration> calibration;  ///< To be published before the picture.
@@ -89,6 +96,7 @@ class StereoDriver {
   StereoStep Next(Timestamp now);
 
   StereoOutput Convert(const images::StereoPair& pair);
+  /// Throws UnusableFrame when the depth cannot cover the colour picture's view.
   StereoOutput Convert(const images::RgbdImage& image);
 
   /// The colour camera's lens as somebody else says it; a calibration file goes before it.
@@ -114,6 +122,7 @@ class StereoDriver {
   capture::Pacer pacer_;
   bool is_live_ = true;
   std::optional<Frame> waiting_;  ///< Recorded frame whose time has not come.
+  std::int64_t unusable_ = 0;     ///< Frames that could not be converted.
 
   std::optional<RigCalibration> rig_;         ///< For pairs.
   std::optional<capture::Calibration> lens_;  ///< For colour and depth.

@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/capture/pushed_source.h"
 #include "services/stereo_driver/core/sources/matched_source.h"
 #include "services/stereo_driver/core/sources/side_by_side_source.h"
 #include "services/stereo_driver/core/sources/sources.h"
@@ -95,6 +96,19 @@ TEST(MatchedSource, ReturnsThoughNoPicturesMakeAFrame) {
   EXPECT_EQ(source.status().unusable, 3);
 }
 
+TEST(MatchedSource, KeepsFewPicturesOfALiveCameraWhoseOtherIsSilent) {
+  const auto clock = [] { return Timestamp{}; };
+  auto left = std::make_unique<capture::PushedSource>("left", clock);
+  capture::PushedSource& camera = *left;
+  MatchedSource source(std::move(left), std::make_unique<capture::PushedSource>("right", clock),
+                       0.010, ComposePair);
+  for (std::int64_t i = 0; i < 20; ++i) {
+    camera.Push(images::Image{{33'000 * i}, "", cv::Mat(4, 4, CV_8UC3)});
+    EXPECT_EQ(source.Next().state, SourceState::kWaiting);
+  }
+  EXPECT_EQ(source.status().unmatched_left, 15);
+}
+
 std::unique_ptr<capture::Source> Halves(int width) {
   Picture picture = PictureAt(5000, {width, 4});
   picture.bgr.colRange(0, width / 2) = cv::Scalar(1, 1, 1);
@@ -177,6 +191,18 @@ TEST_F(ColourAndDepthTest, CountsDepthInItsUnit) {
   const FrameGrab grab = source->Next();
   EXPECT_EQ(std::get<images::RgbdImage>(grab.frame->images).depth.depth_mm.at<std::uint16_t>(0, 0),
             1000);
+}
+
+TEST_F(ColourAndDepthTest, LeavesOutWhatIsFartherThanSixteenBitsCanSay) {
+  cv::Mat depth(6, 8, CV_16UC1, cv::Scalar(20'000));
+  depth.at<std::uint16_t>(0, 0) = 13'107;
+  WriteFrame("1", depth);
+  config_.depth_unit_mm = 5.0;
+  const auto source = MakeFrameSource(config_, NoClocks());
+  const FrameGrab grab = source->Next();
+  const cv::Mat& depth_mm = std::get<images::RgbdImage>(grab.frame->images).depth.depth_mm;
+  EXPECT_EQ(depth_mm.at<std::uint16_t>(0, 0), 65'535);
+  EXPECT_EQ(cv::countNonZero(depth_mm), 1);
 }
 
 TEST_F(ColourAndDepthTest, CountsPicturesThatAreNoDepthAsCorrupt) {

@@ -20,6 +20,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 /// All ways to the same: one pair of a plane, whatever way it comes, ends on STEREO.
 class StereoDriverServiceTest : public testing::Test {
@@ -103,6 +104,32 @@ TEST_F(StereoDriverServiceTest, TakesFoldersOfColourAndDepth) {
   RunToTheEnd();
   ASSERT_EQ(received_.size(), 1u);
   ExpectThePlane(received_[0]);
+}
+
+TEST_F(StereoDriverServiceTest, CountsDepthOfAnotherViewAndGoesOn) {
+  UseFolders(FrameSourceKind::kColourAndDepth);
+  Write("left1.png", pair_.left.bgr);
+  Write("left2.png", pair_.left.bgr);
+  Write("right1.png", cv::Mat(180, 320, CV_16UC1, cv::Scalar(2000)));
+  Write("right2.png", cv::Mat(240, 320, CV_16UC1, cv::Scalar(2000)));
+  StereoDriverService service(config_, bus_, bus_);
+  while (service.Step() != program::StepResult::kFinished) {
+  }
+  test::HandleAll(bus_);
+  EXPECT_EQ(received_.size(), 1u);
+  EXPECT_THAT(DropsOn("STEREO"), IsEmpty());
+  EXPECT_THAT(service.health().text, HasSubstr("1 pictures that make no pair"));
+}
+
+TEST_F(StereoDriverServiceTest, DropsAKinectsDepthOfAnotherView) {
+  config_.driver.source.kind = FrameSourceKind::kKinectChannel;
+  StereoDriverService service(config_, bus_, bus_);
+  bus_.Publish("KINECT_FRAME",
+               images::RgbdImage{{{5}, "", pair_.left.bgr},
+                                 {{5}, "", cv::Mat(180, 320, CV_16UC1, cv::Scalar(2000))}});
+  test::HandleAll(bus_);
+  EXPECT_TRUE(received_.empty());
+  EXPECT_EQ(DropsOn("KINECT_FRAME")["handler_failed"], 1);
 }
 
 TEST_F(StereoDriverServiceTest, MatchesRecordedPairsAgainToTheSame) {

@@ -1,5 +1,7 @@
 #include "services/stereo_driver/core/sources/matched_source.h"
 
+#include <limits>
+#include <opencv2/core.hpp>
 #include <utility>
 
 namespace deixis::stereo_driver {
@@ -10,11 +12,13 @@ using capture::Source;
 using capture::SourceState;
 using capture::SourceStatus;
 
-// What waits in a live camera is the newest picture; in a recording, the next one.
-bool IsWanted(const Source& source, SourceState state, bool has_one_waiting) {
-  if (state == SourceState::kFinished) return false;
-  return source.status().is_live || !has_one_waiting;
-}
+// Pictures of either side that may wait for one of the other: a decoded one may take 200 MB. So
+// many periods may one camera be later than the other.
+constexpr std::size_t kMostWaiting = 5;
+
+// What waits in a live camera is the newest picture, which would be lost; in a recording, the next
+// one.
+bool KeepsWhatIsNotFetched(const Source& source) { return !source.status().is_live; }
 
 SourceStatus Together(const SourceStatus& left, const SourceStatus& right) {
   SourceStatus status = left;
@@ -27,10 +31,12 @@ SourceStatus Together(const SourceStatus& left, const SourceStatus& right) {
   return status;
 }
 
+// What lies farther than 16 bits can say counts as not measured.
 cv::Mat InMillimetres(const cv::Mat& depth, double unit_mm) {
   if (unit_mm == 1.0) return depth;
   cv::Mat depth_mm;
   depth.convertTo(depth_mm, CV_16UC1, unit_mm);
+  depth_mm.setTo(0, depth > std::numeric_limits<std::uint16_t>::max() / unit_mm);
   return depth_mm;
 }
 
@@ -41,7 +47,7 @@ MatchedSource::MatchedSource(std::unique_ptr<Source> left, std::unique_ptr<Sourc
     : left_(std::move(left)),
       right_(std::move(right)),
       compose_(std::move(compose)),
-      matcher_(max_skew_s) {}
+      matcher_(max_skew_s, kMostWaiting) {}
 
 FrameGrab MatchedSource::Next() {
   if (auto frame = NextMatch()) return {SourceState::kPicture, std::move(frame)};
@@ -62,14 +68,16 @@ std::optional<Frame> MatchedSource::NextMatch() {
 }
 
 void MatchedSource::FetchLeft() {
-  if (!IsWanted(*left_, left_state_, matcher_.first_waits())) return;
+  if (left_state_ == SourceState::kFinished) return;
+  if (matcher_.first_waits() && KeepsWhatIsNotFetched(*left_)) return;
   capture::Grab grab = left_->Next();
   left_state_ = grab.state;
   if (grab.picture) matcher_.AddFirst(grab.picture->time, std::move(*grab.picture));
 }
 
 void MatchedSource::FetchRight() {
-  if (!IsWanted(*right_, right_state_, matcher_.second_waits())) return;
+  if (right_state_ == SourceState::kFinished) return;
+  if (matcher_.second_waits() && KeepsWhatIsNotFetched(*right_)) return;
   capture::Grab grab = right_->Next();
   right_state_ = grab.state;
   if (grab.picture) matcher_.AddSecond(grab.picture->time, std::move(*grab.picture));
