@@ -16,6 +16,13 @@ using images::Image;
 
 Decoded<Image> Numbered(const image_t& message) { return {ToImage(message), SequenceOf(message)}; }
 
+// The time of all pictures in it, as other codecs of it have it.
+Decoded<Image> LeftOf(const images_t& message) {
+  Decoded<Image> left = Numbered(RequireImage(message, images_t::LEFT, "no_left_image"));
+  left.value.time = ToTimestamp(message.utime);
+  return left;
+}
+
 }  // namespace
 
 Decoded<EncodedImage> Codec<EncodedImage>::Decode(Bytes bytes) {
@@ -32,7 +39,7 @@ std::vector<std::uint8_t> Codec<EncodedImage>::Encode(const EncodedImage& image,
 Decoded<Image> Codec<Image>::Decode(Bytes bytes) {
   const std::int64_t fingerprint = Fingerprint(bytes);
   if (fingerprint == images_t::getHash()) {
-    return Numbered(RequireImage(DecodeWire<images_t>(bytes), images_t::LEFT, "no_left_image"));
+    return LeftOf(DecodeWire<images_t>(bytes));
   }
   if (fingerprint == sensor_msgs::Image::getHash()) {
     return {ToImage(DecodeWire<sensor_msgs::Image>(bytes)), -1};

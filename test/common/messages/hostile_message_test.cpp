@@ -330,7 +330,7 @@ TEST(StereoImage, LeftPictureIsTaken) {
   message.image_types = {bot_core::images_t::DEPTH_MM_ZIPPED, bot_core::images_t::LEFT};
   message.images = {GoodGrey(), GoodJpeg()};
   message.n_images = 2;
-  message.images[1].utime = 77;
+  message.images[1].utime = 75;  // As its camera stamped it.
   const auto bytes = Encoded(message);
   const auto image = Codec<images::Image>::Decode({bytes.data(), bytes.size()}).value;
   EXPECT_EQ(image.bgr.cols, 8);
