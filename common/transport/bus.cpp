@@ -204,12 +204,12 @@ struct Bus::Implementation {
   void Deliver(Subscription& subscription, const RawMessage& raw) {
     const Clock::time_point start = Clock::now();
     bool is_accepted = false;
-    const Accept accept = [&](std::int64_t sequence, Timestamp time) {
+    const Accept accept = [&](const std::optional<Stamp>& stamp) {
       is_accepted = true;
       ++subscription.statistics.messages;
-      if (!subscription.receive) return;
-      FollowSequence(subscription, sequence, time, start);
-      if (!options.deliver_every_message) FollowTime(subscription, time, start);
+      if (!stamp) return;
+      FollowSequence(subscription, *stamp, start);
+      if (!options.deliver_every_message) FollowTime(subscription, stamp->time, start);
     };
     try {
       Hand(subscription, raw, accept);
@@ -222,7 +222,7 @@ struct Bus::Implementation {
 
   static void Hand(Subscription& subscription, const RawMessage& raw, const Accept& accept) {
     if (subscription.receive_raw) {
-      accept(-1, {});
+      accept(std::nullopt);
       subscription.receive_raw(raw);
     } else {
       subscription.receive(raw.bytes, accept);
@@ -230,10 +230,10 @@ struct Bus::Implementation {
   }
 
   // Sequence numbers are -1 (none) or 0..2^60, so differences do not overflow.
-  static void FollowSequence(Subscription& subscription, std::int64_t sequence, Timestamp time,
+  static void FollowSequence(Subscription& subscription, const Stamp& stamp,
                              Clock::time_point now) {
     PublisherSequences& sequences = subscription.sequences;
-    sequences.Observe(sequence, time, subscription.skipped_since_delivery, now);
+    sequences.Observe(stamp.sequence, stamp.time, subscription.skipped_since_delivery, now);
     subscription.skipped_since_delivery = 0;
     subscription.statistics.gaps = sequences.gaps();
     if (now < subscription.next_warning_of_two || !sequences.HasTwoPublishers(now)) return;

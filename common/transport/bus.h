@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -118,16 +119,24 @@ class Bus {
   const std::string& url() const;
 
  private:
-  using Accept = std::function<void(std::int64_t sequence, Timestamp time)>;
+  /// What the messages of a channel's one publisher are followed by.
+  struct Stamp {
+    std::int64_t sequence = -1;  ///< -1: it carries none.
+    Timestamp time;
+  };
+  /// Nothing is followed where many publish by right.
+  using Accept = std::function<void(const std::optional<Stamp>& stamp)>;
   using Receiver = std::function<void(messages::Bytes, const Accept&)>;
 
   template <typename T, typename Handler>
   static Receiver ReceiverFor(Handler handler) {
     return [handler = std::move(handler)](messages::Bytes bytes, const Accept& accept) {
       const auto message = messages::Codec<T>::Decode(bytes);
-      // Every service speaks on the channel of the status: its numbers say nothing.
-      const bool has_one_publisher = !std::is_same_v<T, messages::ServiceStatus>;
-      accept(has_one_publisher ? message.sequence : -1, messages::Codec<T>::Time(message.value));
+      if constexpr (std::is_same_v<T, messages::ServiceStatus>) {
+        accept(std::nullopt);  // Every service speaks there, each by its own clock.
+      } else {
+        accept(Stamp{message.sequence, messages::Codec<T>::Time(message.value)});
+      }
       handler(message.value);
     };
   }

@@ -54,6 +54,17 @@ TEST_F(StatusReporterTest, IsDegradedAndSaysSoWhileTwoPublishOnOneChannel) {
   for (const auto& channel : received_[0].channels) EXPECT_EQ(channel.gaps, 0);
 }
 
+TEST_F(StatusReporterTest, TakesServicesOfTwoClocksForNoJump) {
+  for (const std::int64_t hours : {9, 5}) {
+    ServiceStatus status;
+    status.time = {hours * 3'600'000'000};
+    bus_.Publish(kStatusChannel, status);
+  }
+  test::HandleAll(bus_);
+  EXPECT_EQ(received_.size(), 2u);
+  EXPECT_EQ(bus_.trouble(), "");
+}
+
 TEST_F(StatusReporterTest, ReportsAtOnceAndThenNotBeforeASecond) {
   StatusReporter reporter({"x", ""}, bus_, bus_);
   for (int i = 0; i < 5; ++i) reporter.ReportIfDue(messages::ServiceState::kRunning, "");
