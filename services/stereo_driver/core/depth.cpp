@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "services/stereo_driver/core/disparity.h"
+#include "services/stereo_driver/core/halving.h"
 
 namespace deixis::stereo_driver {
 namespace {
@@ -64,15 +65,17 @@ void DepthConverter::Convert(const cv::Mat& disparity, cv::Mat& depth_mm) const 
 }
 
 void DepthConverter::ConvertHalved(const cv::Mat& disparity, cv::Mat& depth_mm) const {
-  depth_mm.create(disparity.rows / 2, disparity.cols / 2, CV_16UC1);
+  const Halving rows(disparity.rows);
+  const Halving columns(disparity.cols);
+  depth_mm.create(rows.half(), columns.half(), CV_16UC1);
   const std::uint16_t* table = mm_of_disparity_.data();
   const int last = static_cast<int>(mm_of_disparity_.size()) - 1;
   for (int y = 0; y < depth_mm.rows; ++y) {
-    const auto* upper = disparity.ptr<std::int16_t>(2 * y);
-    const auto* lower = disparity.ptr<std::int16_t>(2 * y + 1);
+    const auto* upper = disparity.ptr<std::int16_t>(rows.First(y));
+    const auto* lower = disparity.ptr<std::int16_t>(rows.First(y) + 1);
     auto* to = depth_mm.ptr<std::uint16_t>(y);
     for (int x = 0; x < depth_mm.cols; ++x) {
-      const int i = 2 * x;
+      const int i = columns.First(x);
       to[x] = table[std::clamp(Representative(upper[i], upper[i + 1], lower[i], lower[i + 1]), 0,
                                last)];
     }

@@ -24,7 +24,7 @@ class DepthConverter {
   /// Pixel by pixel, into `depth_mm`, whose memory is used again.
   void Convert(const cv::Mat& disparity, cv::Mat& depth_mm) const;
 
-  /// Half as wide and high (odd last row and column left out). Each pixel stands for 2x2
+  /// Half as wide and high, of the same view (see Halving). Each pixel stands for 2x2
   /// disparities: the mean of those that agree within a pixel with the nearest to the middle of the
   /// valid ones, so that no distance is made up between a body and what lies behind it.
   void ConvertHalved(const cv::Mat& disparity, cv::Mat& depth_mm) const;

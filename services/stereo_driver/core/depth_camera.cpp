@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "services/stereo_driver/core/camera_matrix.h"
+#include "services/stereo_driver/core/halving.h"
 
 namespace deixis::stereo_driver {
 namespace {
@@ -53,13 +54,15 @@ std::uint16_t MeanOfNearest(const std::array<std::uint16_t, 4>& distances) {
 }  // namespace
 
 void HalveDepth(const cv::Mat& depth_mm, cv::Mat& halved_mm) {
-  halved_mm.create(depth_mm.rows / 2, depth_mm.cols / 2, CV_16UC1);
+  const Halving rows(depth_mm.rows);
+  const Halving columns(depth_mm.cols);
+  halved_mm.create(rows.half(), columns.half(), CV_16UC1);
   for (int y = 0; y < halved_mm.rows; ++y) {
-    const auto* upper = depth_mm.ptr<std::uint16_t>(2 * y);
-    const auto* lower = depth_mm.ptr<std::uint16_t>(2 * y + 1);
+    const auto* upper = depth_mm.ptr<std::uint16_t>(rows.First(y));
+    const auto* lower = depth_mm.ptr<std::uint16_t>(rows.First(y) + 1);
     auto* to = halved_mm.ptr<std::uint16_t>(y);
     for (int x = 0; x < halved_mm.cols; ++x) {
-      const int i = 2 * x;
+      const int i = columns.First(x);
       to[x] = MeanOfNearest({upper[i], upper[i + 1], lower[i], lower[i + 1]});
     }
   }
@@ -85,7 +88,8 @@ const RectifiedDepth& DepthCamera::Rectify(const images::RgbdImage& image) {
     cv::remap(image.depth.depth_mm, rectified_mm_, depth_map_x_, depth_map_y_, cv::INTER_NEAREST);
     result_ = {rectified_bgr_, rectified_mm_};
   }
-  const bool is_large = result_.depth_mm.cols >= result_.left_bgr.cols;
+  const cv::Size size = result_.depth_mm.size();
+  const bool is_large = size.width >= result_.left_bgr.cols && size.width > 1 && size.height > 1;
   if (depth_size_ == Size::kHalf && is_large) {
     HalveDepth(result_.depth_mm, halved_mm_);
     result_.depth_mm = halved_mm_;

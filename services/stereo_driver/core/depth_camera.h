@@ -17,8 +17,8 @@ class DepthCamera {
   DepthCamera(const geometry::StereoCalibration& calibration, Size depth_size);
 
   /// Takes out the lens distortion of both and makes the depth half as large when it was asked for
-  /// and comes as large as the picture. The result shares memory with this object, or with `image`
-  /// when nothing had to be done, and holds until the next call.
+  /// and comes as large as the picture, of two rows and columns at least. The result shares memory
+  /// with this object, or with `image` when nothing had to be done, and holds until the next call.
   const RectifiedDepth& Rectify(const images::RgbdImage& image);
 
  private:
@@ -34,7 +34,7 @@ class DepthCamera {
   RectifiedDepth result_;
 };
 
-/// Half as wide and high (odd last row and column left out). Each pixel is the mean of those of its
+/// Half as wide and high, of the same view (see Halving). Each pixel is the mean of those of its
 /// 2x2 distances that agree with the nearest of the valid ones, so that no distance is made up
 /// between a body and what lies behind it.
 void HalveDepth(const cv::Mat& depth_mm, cv::Mat& halved_mm);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <opencv2/core.hpp>
 
 namespace deixis::stereo_driver {
@@ -17,8 +18,18 @@ int LargestDifference(const DisparityConfig& config, int num_disparities) {
   return config.left_right_px >= 0 ? config.left_right_px : num_disparities;
 }
 
+int SgbmBlock_px(const DisparityConfig& config) {
+  return config.block_px > 0 ? config.block_px : kDefaultSgbmBlock_px;
+}
+
+/// OpenCV sums up costs in 16 bits.
+bool FitsSgbmCosts(const DisparityConfig& config) {
+  const std::int64_t block_px = SgbmBlock_px(config);
+  return config.smoothness_large * block_px * block_px <= std::numeric_limits<std::int16_t>::max();
+}
+
 cv::Ptr<cv::StereoMatcher> MakeSgbm(const DisparityConfig& config, int num_disparities) {
-  const int block_px = config.block_px > 0 ? config.block_px : kDefaultSgbmBlock_px;
+  const int block_px = SgbmBlock_px(config);
   const int area = block_px * block_px;
   return cv::StereoSGBM::create(
       0, num_disparities, block_px, config.smoothness_small * area, config.smoothness_large * area,
@@ -59,6 +70,8 @@ void DisparityConfig::Validate() const {
   faults.Require(smoothness_small > 0, "smoothness_small", "must be positive");
   faults.Require(smoothness_large > smoothness_small, "smoothness_large",
                  "must be larger than smoothness_small");
+  faults.Require(method != Method::kSgbm3way || FitsSgbmCosts(*this), "smoothness_large",
+                 "times block_px times block_px must be 32767 at most; take less of either");
   faults.Require(uniqueness_percent >= 0 && uniqueness_percent < 100, "uniqueness_percent",
                  "must lie between 0 and 99");
   faults.Require(texture_threshold >= 0, "texture_threshold", "must not be negative");

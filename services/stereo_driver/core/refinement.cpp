@@ -1,5 +1,6 @@
 #include "services/stereo_driver/core/refinement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -24,14 +25,18 @@ void ToPixels(const cv::Mat& disparity, cv::Mat& disparity_px) {
   }
 }
 
-/// The nearest 1/16; what was valid stays valid.
+/// The nearest 1/16, within a pixel of what `disparity` holds: smoothing goes farther where much
+/// agrees by its configuration. What was valid stays valid.
 void ToSixteenths(const cv::Mat& disparity_px, cv::Mat& disparity) {
   for (int y = 0; y < disparity.rows; ++y) {
     const auto* from = disparity_px.ptr<float>(y);
     auto* to = disparity.ptr<std::int16_t>(y);
     for (int x = 0; x < disparity.cols; ++x) {
+      if (to[x] <= 0) continue;
       const long sixteenths = std::lround(from[x] * kDisparityScale);
-      if (to[x] > 0) to[x] = static_cast<std::int16_t>(std::max(1L, sixteenths));
+      const long least = std::max(1, to[x] - kDisparityScale);
+      const long most = to[x] + kDisparityScale;
+      to[x] = static_cast<std::int16_t>(std::clamp(sixteenths, least, most));
     }
   }
 }

@@ -5,14 +5,21 @@
 namespace deixis::stereo_driver {
 namespace {
 
-double MatchScale(const StereoMatcherConfig& config) {
-  return config.match_size == Size::kHalf ? 0.5 : 1.0;
+// Half of an odd size is not half as large: the view is the whole one, its scale follows.
+cv::Size MatchedSize(const StereoMatcherConfig& config, cv::Size size) {
+  return config.match_size == Size::kHalf ? cv::Size(size.width / 2, size.height / 2) : size;
+}
+
+int MatchedWidth(const StereoMatcherConfig& config, const geometry::CameraCalibration& rectified) {
+  return MatchedSize(config, {rectified.width_px, rectified.height_px}).width;
 }
 
 DepthGeometry GeometryOf(const StereoMatcherConfig& config,
                          const geometry::StereoCalibration& calibration) {
-  return {calibration.rectified.focal_px.x() * MatchScale(config),
-          calibration.right_from_left.translation_m.norm(), config.nearest_m, config.farthest_m};
+  const geometry::CameraCalibration& rectified = calibration.rectified;
+  const double scale = 1.0 * MatchedWidth(config, rectified) / rectified.width_px;
+  return {rectified.focal_px.x() * scale, calibration.right_from_left.translation_m.norm(),
+          config.nearest_m, config.farthest_m};
 }
 
 const StereoMatcherConfig& Validated(const StereoMatcherConfig& config) {
@@ -25,8 +32,8 @@ const StereoMatcherConfig& Validated(const StereoMatcherConfig& config) {
 int SearchedBy(const StereoMatcherConfig& config, const geometry::StereoCalibration& calibration) {
   const DepthGeometry geometry = GeometryOf(config, calibration);
   const double nearest_px = geometry.focal_px * geometry.baseline_m / geometry.nearest_m;
-  const double width_px = calibration.rectified.width_px * MatchScale(config);
-  return SearchedDisparities(config.disparity, nearest_px, static_cast<int>(width_px));
+  return SearchedDisparities(config.disparity, nearest_px,
+                             MatchedWidth(config, calibration.rectified));
 }
 
 }  // namespace
@@ -62,7 +69,7 @@ void StereoMatcher::Rectify(const images::StereoPair& pair) {
   rectifier_.Rectify(pair, rectified_);
   result_.left_bgr = rectified_.left_bgr;
   if (config_.match_size == Size::kHalf) {
-    const cv::Size half(rectified_.left_grey.cols / 2, rectified_.left_grey.rows / 2);
+    const cv::Size half = MatchedSize(config_, rectified_.left_grey.size());
     cv::resize(rectified_.left_grey, left_to_match_, half, 0.0, 0.0, cv::INTER_AREA);
     cv::resize(rectified_.right_grey, right_to_match_, half, 0.0, 0.0, cv::INTER_AREA);
   } else {

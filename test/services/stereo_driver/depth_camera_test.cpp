@@ -85,6 +85,21 @@ TEST(DepthCamera, TakesDepthOfAnotherSizeThanThePicture) {
   EXPECT_EQ(camera.Rectify(Frame({64, 48}, {16, 12})).depth_mm.size(), cv::Size(16, 12));
 }
 
+TEST(DepthCamera, LeavesDepthThatHasNoHalf) {
+  DepthCamera camera(WithoutDistortion({8, 1}), Size::kHalf);
+  EXPECT_EQ(camera.Rectify(Frame({8, 1}, {8, 1})).depth_mm.size(), cv::Size(8, 1));
+}
+
+TEST(HalveDepth, CoversAnOddViewToBothItsEnds) {
+  const cv::Mat depth_mm = (cv::Mat_<std::uint16_t>(2, 5) << 1000, 1000, 9, 0, 3000,  //
+                            1000, 1000, 9, 0, 3000);
+  cv::Mat halved_mm;
+  HalveDepth(depth_mm, halved_mm);
+  EXPECT_EQ(halved_mm.size(), cv::Size(2, 1));
+  EXPECT_EQ(halved_mm.at<std::uint16_t>(0, 0), 1000);
+  EXPECT_EQ(halved_mm.at<std::uint16_t>(0, 1), 3000);
+}
+
 TEST(HalveDepth, AveragesTheNearestSurfaceOnly) {
   const cv::Mat depth_mm = (cv::Mat_<std::uint16_t>(2, 4) << 1000, 1010, 0, 0, 0, 3000, 0, 0);
   cv::Mat halved_mm;

@@ -73,12 +73,14 @@ TEST(DepthConverter, HalvingPassesOverInvalidOnes) {
   EXPECT_EQ(HalvedDepthOf(0.0, 0.0, 15.0, 30.0), 2000);
 }
 
-TEST(DepthConverter, HalvingLeavesOutAnOddLastRowAndColumn) {
-  const cv::Mat disparity(5, 7, CV_16SC1, cv::Scalar(480));
+TEST(DepthConverter, HalvingAnOddSizeLeavesOutTheMiddleRowAndColumn) {
+  cv::Mat disparity(5, 5, CV_16SC1, cv::Scalar(480));
+  disparity.row(2) = cv::Scalar(240);
+  disparity.col(2) = cv::Scalar(240);
   cv::Mat depth_mm;
   DepthConverter(kGeometry, kSearched).ConvertHalved(disparity, depth_mm);
-  EXPECT_EQ(depth_mm.size(), cv::Size(3, 2));
-  EXPECT_EQ(cv::countNonZero(depth_mm == 2000), 6);
+  EXPECT_EQ(depth_mm.size(), cv::Size(2, 2));
+  EXPECT_EQ(cv::countNonZero(depth_mm == 2000), 4);
 }
 
 TEST(DepthConverter, RefusesAGeometryThatMakesNoDistances) {

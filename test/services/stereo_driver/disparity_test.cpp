@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <opencv2/core.hpp>
 
 #include "services/stereo_driver/core/refinement.h"
@@ -140,6 +141,19 @@ TEST(DisparityConfig, NamesWhatOpenCvWouldNotTake) {
                                  HasSubstr("smoothness_large"), HasSubstr("prefilter_cap"))));
 }
 
+TEST(DisparityConfig, RefusesSmoothnessThatSixteenBitCostsCannotHold) {
+  DisparityConfig config;
+  config.block_px = 31;  // 32 * 31 * 31 = 30752
+  EXPECT_NO_THROW(config.Validate());
+  config.block_px = 33;
+  EXPECT_THROW(config.Validate(), config::ConfigError);
+  config.method = Method::kBm;  // It has none.
+  EXPECT_NO_THROW(config.Validate());
+  config = DisparityConfig{};
+  config.smoothness_large = std::numeric_limits<int>::max();
+  EXPECT_THROW(config.Validate(), config::ConfigError);
+}
+
 /// A wall whose disparity grows by a pixel and a quarter from left to right.
 struct SlantedPair {
   cv::Mat left = cv::Mat(120, 320, CV_8UC1);
@@ -189,7 +203,19 @@ TEST(DisparityRefiner, LosesAndMakesUpNothing) {
   cv::absdiff(before, after, moved);
   double most = 0.0;
   cv::minMaxLoc(moved, nullptr, &most, nullptr, nullptr, before > 0);
-  EXPECT_LE(most, 2 * kDisparityScale);
+  EXPECT_LE(most, kDisparityScale);
+}
+
+TEST(DisparityRefiner, MovesNothingByMoreThanAPixelHoweverWideItSmooths) {
+  const cv::Mat plain(60, 120, CV_8UC1, cv::Scalar(90));  // Nothing to align by.
+  cv::Mat disparity(plain.size(), CV_16SC1, cv::Scalar(8 * kDisparityScale));
+  disparity.colRange(60, 120) = cv::Scalar(14 * kDisparityScale);
+  const cv::Mat before = disparity.clone();
+  RefinementConfig config;
+  config.smoothing_px = 31;
+  config.agree_px = 10.0;
+  DisparityRefiner(config).Refine(plain, plain, disparity);
+  EXPECT_EQ(cv::norm(before, disparity, cv::NORM_INF), kDisparityScale);
 }
 
 TEST(DisparityRefiner, WithoutRoundsLeavesAllAsItWas) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "services/stereo_driver/core/rig_calibration.h"
 #include "test/services/stereo_driver/synthetic_rig.h"
@@ -91,6 +92,35 @@ INSTANTIATE_TEST_SUITE_P(Ways, EveryWay,
                                          Way{Size::kFull, Size::kFull, Method::kSgbm3way, 0.08},
                                          Way{Size::kHalf, Size::kHalf, Method::kSgbm3way, 0.16},
                                          Way{Size::kFull, Size::kHalf, Method::kBm, 0.08}));
+
+/// Pinholes side by side, so that nothing is lost of a picture whose size is odd.
+geometry::StereoCalibration PlainRig(int width_px, int height_px) {
+  geometry::StereoCalibration rig;
+  rig.left.width_px = width_px;
+  rig.left.height_px = height_px;
+  rig.left.focal_px = {100.0, 100.0};
+  rig.left.principal_point_px = {0.5 * (width_px - 1), 0.5 * (height_px - 1)};
+  rig.right = rig.rectified = rig.left;
+  rig.right_from_left.translation_m = {-0.12, 0.0, 0.0};
+  return rig;
+}
+
+/// A plane whose disparity is `disparity_px` everywhere.
+images::StereoPair ShiftedNoise(cv::Size size, int disparity_px) {
+  cv::Mat noise(size.height, size.width + disparity_px, CV_8UC3);
+  cv::RNG(7).fill(noise, cv::RNG::UNIFORM, 0, 256);
+  cv::GaussianBlur(noise, noise, {5, 5}, 1.2);
+  return {{{}, "", noise.colRange(0, size.width)},
+          {{}, "", noise.colRange(disparity_px, disparity_px + size.width)}};
+}
+
+TEST(StereoMatcher, MeasuresHalvesOfAnOddSizeByTheirTrueScale) {
+  StereoMatcher matcher({}, PlainRig(61, 47));
+  const cv::Mat depth_mm = matcher.Measure(ShiftedNoise({61, 47}, 6)).depth_mm;
+  EXPECT_EQ(depth_mm.size(), cv::Size(30, 23));
+  // 100 px * 0.12 m / 6 px = 2 m; at 1/2 instead of 30/61 it would be 33 mm more.
+  EXPECT_NEAR(cv::mean(depth_mm, depth_mm > 0)[0], 2000.0, 12.0);
+}
 
 TEST(StereoMatcher, SameInputMakesTheSameBytesAndNewMemoryIsNotAskedFor) {
   const geometry::StereoCalibration rig = RectifiedRig();
