@@ -38,3 +38,12 @@ def test_gaps_are_counted_as_the_services_count_them(repository: Path) -> None:
 def test_the_readme_has_every_command_and_no_other(repository: Path) -> None:
     text = (repository / "scripts/README.md").read_text(encoding="utf-8")
     assert set(re.findall(r"^(?:sudo )?scripts/deixis ([a-z-]+)", text, re.MULTILINE)) == set(COMMANDS)
+
+
+def test_the_readme_names_every_reason_for_which_messages_are_dropped(repository: Path) -> None:
+    folder = repository / "common/messages"
+    sources = "".join(file.read_text(encoding="utf-8") for file in sorted(folder.glob("*.*")))
+    reasons = set(re.findall(r'Rejected\("(\w+)"\)', sources))
+    named = set(re.findall(r"`(\w+)`", (folder / "README.md").read_text(encoding="utf-8")))
+    assert "text_too_long" in reasons
+    assert reasons <= named
