@@ -8,9 +8,9 @@
 namespace deixis::capture {
 namespace {
 
-constexpr double kUsualRateHz = 30.0;  // Where a file states no rate at all.
-constexpr double kLongest_s = 1e9;     // A later time in a file is damage.
-constexpr int kMaxDamagedInARow = 30;  // Then the rest of the file counts as lost.
+constexpr double kUsualRate_hz = 30.0;  // Where a file states no rate at all.
+constexpr double kLongest_s = 1e9;      // A later time in a file is damage.
+constexpr int kMaxDamagedInARow = 30;   // Then the rest of the file counts as lost.
 
 // FFmpeg where it is there: trying the others in turn takes long and loads all of GStreamer.
 int FileBackend() {
@@ -35,7 +35,7 @@ cv::VideoCapture Open(const SourceConfig& config) {
 double PeriodOf(const cv::VideoCapture& video, double rate_hz) {
   if (rate_hz > 0.0) return 1.0 / rate_hz;
   const double stated_hz = video.get(cv::CAP_PROP_FPS);
-  return 1.0 / (stated_hz >= kLowestRate_hz && stated_hz < 1000.0 ? stated_hz : kUsualRateHz);
+  return 1.0 / (stated_hz >= kLowestRate_hz && stated_hz < 1000.0 ? stated_hz : kUsualRate_hz);
 }
 
 }  // namespace

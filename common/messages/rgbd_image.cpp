@@ -114,14 +114,16 @@ image_msg_t FromColour(const images::Image& colour) {
   return message;
 }
 
-depth_msg_t FromDepth(const images::DepthImage& depth, bool is_registered) {
-  const cv::Mat packed = depth.depth_mm.isContinuous() ? depth.depth_mm : depth.depth_mm.clone();
+depth_msg_t FromDepth(const RgbdImage& image) {
+  const cv::Mat& depth_mm = image.depth.depth_mm;
+  const cv::Mat packed = depth_mm.isContinuous() ? depth_mm : depth_mm.clone();
   const Bytes rows{packed.data, packed.total() * packed.elemSize()};
   depth_msg_t message{};
-  message.timestamp = depth.time.microseconds;
+  message.timestamp = image.depth.time.microseconds;
   message.width = Size16(packed.cols);
   message.height = Size16(packed.rows);
-  message.depth_data_format = is_registered ? depth_msg_t::DEPTH_REGISTERED : depth_msg_t::DEPTH_MM;
+  message.depth_data_format =
+      image.is_registered ? depth_msg_t::DEPTH_REGISTERED : depth_msg_t::DEPTH_MM;
   message.compression = depth_msg_t::COMPRESSION_ZLIB;
   message.uncompressed_size = static_cast<std::int32_t>(rows.size);
   message.depth_data = Deflate(rows, kDepthCompression);
@@ -148,7 +150,7 @@ std::vector<std::uint8_t> Codec<RgbdImage>::Encode(const RgbdImage& image, std::
   frame_msg_t message{};
   message.timestamp = image.colour.time.microseconds;
   message.image = FromColour(image.colour);
-  message.depth = FromDepth(image.depth, image.is_registered);
+  message.depth = FromDepth(image);
   return EncodeWire(message);
 }
 
