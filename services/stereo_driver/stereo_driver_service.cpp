@@ -147,6 +147,11 @@ void StereoDriverService::LogNews() {
   const std::string& remark = driver_.calibration_remark();
   if (remark != logged_remark_) logging::Info("calibration", {{"remark", remark}});
   logged_remark_ = remark;
+  const std::string& fault = driver_.registration_fault();
+  if (fault != logged_registration_fault_ && !fault.empty()) {
+    logging::Warn("registration", {{"fault", fault}});
+  }
+  logged_registration_fault_ = fault;
   const std::string trouble = driver_.status().pictures.trouble;
   if (trouble.empty() == logged_trouble_.empty()) return;
   if (trouble.empty()) logging::Info("source_recovered");
@@ -157,8 +162,10 @@ void StereoDriverService::LogNews() {
 transport::Health StereoDriverService::health() const {
   const FrameSourceStatus status = driver_.status();
   transport::Health health;
-  health.is_degraded = !status.pictures.trouble.empty();
+  health.is_degraded =
+      !status.pictures.trouble.empty() || !driver_.registration_fault().empty();
   Append(status.pictures.trouble, health.text);
+  Append(driver_.registration_fault(), health.text);
   Append(driver_.calibration_remark(), health.text);
   AppendCount(status.pictures.corrupt, "corrupt pictures", health.text);
   AppendCount(status.pictures.skipped, "skipped pictures", health.text);

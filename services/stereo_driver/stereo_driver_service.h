@@ -71,6 +71,7 @@ class StereoDriverService {
   StereoDriver driver_;
   std::int64_t published_ = 0;  ///< Frames.
   std::string logged_remark_;
+  std::string logged_registration_fault_;
   std::string logged_trouble_;
 };
 
