@@ -19,6 +19,8 @@ using geometry::CameraCalibration;
 constexpr double kLargestMiss_px = 0.5;
 // Along the axis, of a ray that is none: whatever its depth, it ends behind the camera.
 constexpr float kBehind = -1e6F;
+// Of a depth pixel: patches of a slanted surface's border, each at its own distance, still meet.
+constexpr float kPatchSide = 1.1F;
 
 std::vector<cv::Point2d> GridPoints(cv::Size count, double first_px) {
   std::vector<cv::Point2d> points;
@@ -90,6 +92,14 @@ cv::Size SizeOf(const CameraCalibration& camera) {
   return {camera.width_px, camera.height_px};
 }
 
+/// cv::Mat::setTo would allocate.
+void Clear(cv::Mat& depth_mm) {
+  for (int y = 0; y < depth_mm.rows; ++y) {
+    auto* row = depth_mm.ptr<std::uint16_t>(y);
+    std::fill(row, row + depth_mm.cols, std::uint16_t{0});
+  }
+}
+
 Offset OffsetOf(const Eigen::Vector3d& pixels_mm) {
   const Eigen::Vector3f offset = pixels_mm.cast<float>();
   return {offset.x(), offset.y(), offset.z()};
@@ -102,8 +112,16 @@ struct Patch {
   bool IsSeen() const { return *std::min_element(z_mm.begin(), z_mm.end()) > 0.0F; }
   DepthQuad quad() const {
     DepthQuad corners;
-    for (std::size_t i = 0; i < 4; ++i) corners[i] = {u_px[i], v_px[i], z_mm[i]};
+    for (std::size_t i = 0; i < 4; ++i) {
+      corners[i] = {Enlarged(u_px, i), Enlarged(v_px, i), Enlarged(z_mm, i)};
+    }
     return corners;
+  }
+
+ private:
+  static float Enlarged(const std::array<float, 4>& corners, std::size_t i) {
+    const float middle = 0.25F * (corners[0] + corners[1] + corners[2] + corners[3]);
+    return middle + kPatchSide * (corners[i] - middle);
   }
 };
 
@@ -150,7 +168,7 @@ void DepthRegistration::Register(const cv::Mat& depth_mm, cv::Mat& registered_mm
     throw std::logic_error("DepthRegistration: depth of another size or type than its lens");
   }
   registered_mm.create(target_size_, CV_16UC1);
-  registered_mm.setTo(0);
+  Clear(registered_mm);
   std::fill(goes_on_above_.begin(), goes_on_above_.end(), std::uint8_t{0});
   Project(depth_mm, 0, lower_);
   for (int y = 0; y < depth_size_.height; ++y) {

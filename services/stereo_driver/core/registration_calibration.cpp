@@ -12,8 +12,32 @@ using capture::OpenCvFile;
 // Colour and depth camera sit in one housing, or on one bracket.
 const BaselineLimits kBaselineLimits = {0, 300, "depth_camera.registration.unit_m"};
 
+std::string Cure(const std::string& key) { return "set depth_camera.registration." + key; }
+
+std::string Find(const std::string& name, const std::string& key) {
+  try {
+    return config::FindConfig(name).string();
+  } catch (const config::ConfigError& error) {
+    throw config::ConfigError(error.what() + ("; " + Cure(key)));
+  }
+}
+
 OpenCvFile Open(const std::string& name, const std::string& key) {
-  return {config::FindConfig(name).string(), "set depth_camera.registration." + key};
+  return {Find(name, key), Cure(key)};
+}
+
+std::string Text(int width_px, int height_px) {
+  return std::to_string(width_px) + "x" + std::to_string(height_px);
+}
+
+void RequireSameAspect(const capture::LensFile& lens, cv::Size size) {
+  const geometry::CameraCalibration& filed = lens.calibration;
+  if (filed.width_px == 0 || capture::HasSameAspect(filed, size)) return;
+  throw config::ConfigError(
+      lens.path + ": is for pictures of " + Text(filed.width_px, filed.height_px) +
+      " but the depth camera's have " + Text(size.width, size.height) +
+      ", another aspect; calibrate the depth camera at this size and name its lens by "
+      "depth_camera.registration.depth_lens");
 }
 
 }  // namespace
@@ -35,8 +59,7 @@ RegistrationCalibration::RegistrationCalibration(const RegistrationConfig& confi
   if (config.depth_lens.empty()) {
     ReadBothLenses(config);
   } else {
-    depth_lens_ = capture::ReadLensFile(config::FindConfig(config.depth_lens).string(),
-                                        "set depth_camera.registration.depth_lens");
+    depth_lens_ = capture::ReadLensFile(Find(config.depth_lens, "depth_lens"), Cure("depth_lens"));
   }
   const geometry::RigidTransform second_from_first =
       ReadSecondFromFirst(Open(config.extrinsics, "extrinsics"), config.unit_m, kBaselineLimits);
@@ -57,6 +80,7 @@ void RegistrationCalibration::ReadBothLenses(const RegistrationConfig& config) {
 }
 
 DepthViewAnswer RegistrationCalibration::For(cv::Size depth_size) const {
+  RequireSameAspect(depth_lens_, depth_size);
   capture::CalibrationAnswer lens = capture::AtSize(depth_lens_, depth_size);
   if (!lens.remark.empty()) lens.remark = "depth lens: " + lens.remark;
   return {{std::move(lens.calibration), colour_from_depth_}, std::move(lens.remark)};
