@@ -30,9 +30,8 @@ struct LensFile {
 };
 
 /// Throws ConfigError naming file, key and cure; `cure` is for a file that is not there.
-LensFile ReadLensFile(
-    const std::string& path,
-    const std::string& cure = "set calibration.file, or leave it empty to guess");
+LensFile ReadLensFile(const std::string& path,
+                      const std::string& cure = "set calibration.file, or leave it empty to guess");
 
 /// What is known of the lens at one image size.
 struct CalibrationAnswer {

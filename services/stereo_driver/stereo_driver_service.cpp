@@ -162,8 +162,7 @@ void StereoDriverService::LogNews() {
 transport::Health StereoDriverService::health() const {
   const FrameSourceStatus status = driver_.status();
   transport::Health health;
-  health.is_degraded =
-      !status.pictures.trouble.empty() || !driver_.registration_fault().empty();
+  health.is_degraded = !status.pictures.trouble.empty() || !driver_.registration_fault().empty();
   Append(status.pictures.trouble, health.text);
   Append(driver_.registration_fault(), health.text);
   Append(driver_.calibration_remark(), health.text);

@@ -34,8 +34,8 @@ bool HasDistortion(const CameraCalibration& lens) {
                      [](double value) { return value != 0.0; });
 }
 
-/// The published picture's view, in the size that depth is brought into: at full size where there is
-/// more to it than half, so that halving takes means of what was measured.
+/// The published picture's view, in the size that depth is brought into: at full size where there
+/// is more to it than half, so that halving takes means of what was measured.
 CameraCalibration RegisteredView(const CameraCalibration& rectified, Size depth_size,
                                  const CameraCalibration& depth_lens) {
   const int half_width = rectified.width_px / 2;
@@ -83,8 +83,8 @@ DepthCamera::DepthCamera(const geometry::StereoCalibration& calibration, Size de
     throw std::logic_error("DepthCamera: the calibration has no size");
   }
   if (depth_view) {
-    registration_.emplace(*depth_view, RegisteredView(calibration.rectified, depth_size,
-                                                      depth_view->lens));
+    registration_.emplace(*depth_view,
+                          RegisteredView(calibration.rectified, depth_size, depth_view->lens));
   }
   if (!has_distortion_) return;
   MakeMaps(calibration_.left, calibration_.rectified, CV_16SC2, colour_map_x_, colour_map_y_);

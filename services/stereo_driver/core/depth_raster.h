@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 
+#include "services/stereo_driver/core/depth_registration_kernels.h"
+
 namespace deixis::stereo_driver {
 
 /// A point of a surface in a picture: place in pixels, distance along the optical axis.
@@ -57,20 +59,24 @@ class DepthRaster {
   explicit DepthRaster(cv::Mat& depth_mm)
       : pixels_(depth_mm.ptr<std::uint16_t>()),
         stride_(depth_mm.step1()),
-        last_u_(static_cast<float>(depth_mm.cols - 1)),
-        last_v_(static_cast<float>(depth_mm.rows - 1)) {}
+        last_u_px_(static_cast<float>(depth_mm.cols - 1)),
+        last_v_px_(static_cast<float>(depth_mm.rows - 1)) {}
 
   /// Fills the pixels whose centres lie in `quad`.
   void Fill(const DepthQuad& quad) {
     const auto& [a, b, c, d] = quad;
-    const Span u = Between(a.u_px, b.u_px, c.u_px, d.u_px, last_u_);
-    const Span v = Between(a.v_px, b.v_px, c.v_px, d.v_px, last_v_);
-    if (u.first > u.last || v.first > v.last) return;
+    Fill(quad, SpanOf(a.u_px, b.u_px, c.u_px, d.u_px, last_u_px_),
+         SpanOf(a.v_px, b.v_px, c.v_px, d.v_px, last_v_px_));
+  }
+
+  /// The same, of those within spans of columns and rows, which must lie in the picture.
+  void Fill(const DepthQuad& quad, Span columns, Span rows) {
+    const auto& [a, b, c, d] = quad;
     const DepthTriangle upper_left(a, b, c);
     const DepthTriangle lower_right(d, c, b);
-    for (int y = v.first; y <= v.last; ++y) {
+    for (int y = rows.first; y <= rows.last; ++y) {
       std::uint16_t* row = pixels_ + static_cast<std::size_t>(y) * stride_;
-      for (int x = u.first; x <= u.last; ++x) {
+      for (int x = columns.first; x <= columns.last; ++x) {
         float z = upper_left.DepthAt(static_cast<float>(x), static_cast<float>(y));
         if (z == 0.0F) z = lower_right.DepthAt(static_cast<float>(x), static_cast<float>(y));
         Put(z, row[x]);
@@ -79,24 +85,6 @@ class DepthRaster {
   }
 
  private:
-  struct Span {
-    int first, last;
-  };
-
-  // Rounding opens no crack at the pixel's centre either.
-  static constexpr float kMargin_px = 1e-3F;
-
-  /// Whole numbers of 0..last between the least and the largest of four.
-  static Span Between(float a, float b, float c, float d, float last) {
-    const float least = std::min(std::min(a, b), std::min(c, d)) - kMargin_px;
-    const float largest = std::max(std::max(a, b), std::max(c, d)) + kMargin_px;
-    if (!(least <= last) || !(largest >= 0.0F)) return {1, 0};
-    const float from = std::max(least, 0.0F);
-    const int floor = static_cast<int>(from);
-    const int first = floor + (static_cast<float>(floor) < from ? 1 : 0);
-    return {first, static_cast<int>(std::min(largest, last))};
-  }
-
   /// The nearest wins; 0, nothing, counts as the farthest: one below it is the largest number.
   static void Put(float z_mm, std::uint16_t& pixel) {
     const auto rounded = static_cast<std::uint16_t>(std::min(z_mm + 0.5F, 65535.0F));
@@ -106,7 +94,7 @@ class DepthRaster {
 
   std::uint16_t* pixels_;
   std::size_t stride_;
-  float last_u_, last_v_;
+  float last_u_px_, last_v_px_;
 };
 
 }  // namespace deixis::stereo_driver

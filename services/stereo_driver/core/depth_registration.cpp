@@ -154,7 +154,11 @@ DepthRegistration::DepthRegistration(const DepthView& view, const CameraCalibrat
       upper_(depth_size_.width),
       lower_(depth_size_.width),
       goes_on_above_(static_cast<std::size_t>(depth_size_.width) + 1),
-      goes_on_below_(goes_on_above_.size()) {
+      goes_on_below_(goes_on_above_.size()),
+      first_u_(goes_on_above_.size()),
+      last_u_(first_u_),
+      first_v_(first_u_),
+      last_v_(first_u_) {
   const Eigen::Matrix3d camera = PinholeMatrix(target);
   const Eigen::Matrix3d pixels_from_depth =
       camera * view.colour_from_depth.rotation.toRotationMatrix();
@@ -169,15 +173,14 @@ void DepthRegistration::Register(const cv::Mat& depth_mm, cv::Mat& registered_mm
   }
   registered_mm.create(target_size_, CV_16UC1);
   Clear(registered_mm);
-  std::fill(goes_on_above_.begin(), goes_on_above_.end(), std::uint8_t{0});
+  std::fill(goes_on_above_.begin(), goes_on_above_.end(), 0);
   Project(depth_mm, 0, lower_);
   for (int y = 0; y < depth_size_.height; ++y) {
     std::swap(upper_, lower_);
-    std::fill(goes_on_below_.begin(), goes_on_below_.end(), std::uint8_t{0});
+    std::fill(goes_on_below_.begin(), goes_on_below_.end(), 0);
     if (y + 1 < depth_size_.height) {
       Project(depth_mm, y + 1, lower_);
-      FindSurface(upper_.z_mm.data(), lower_.z_mm.data(), depth_size_.width,
-                  goes_on_below_.data() + 1);
+      FindSurfaceBelow();
       FillSurface(registered_mm);
     }
     FillPatches(depth_mm.ptr<std::uint16_t>(y), y, registered_mm);
@@ -190,15 +193,26 @@ void DepthRegistration::Project(const cv::Mat& depth_mm, int y, Row& row) const 
              row.projected());
 }
 
+void DepthRegistration::FindSurfaceBelow() {
+  std::int32_t* goes_on = goes_on_below_.data() + 1;
+  FindSurface(upper_.z_mm.data(), lower_.z_mm.data(), depth_size_.width, goes_on);
+  FindSpans(upper_.projected(), lower_.projected(), goes_on, depth_size_.width,
+            static_cast<float>(target_size_.width - 1), static_cast<float>(target_size_.height - 1),
+            {first_u_.data(), last_u_.data(), first_v_.data(), last_v_.data()});
+}
+
 void DepthRegistration::FillSurface(cv::Mat& registered_mm) const {
   DepthRaster raster(registered_mm);
   const auto vertex = [](const Row& row, std::size_t x) {
     return DepthVertex{row.u_px[x], row.v_px[x], row.z_mm[x]};
   };
-  for (std::size_t x = 1; x < upper_.z_mm.size(); ++x) {
-    if (goes_on_below_[x] == 0) continue;
-    raster.Fill({vertex(upper_, x - 1), vertex(upper_, x), vertex(lower_, x - 1),
-                 vertex(lower_, x)});
+  for (std::size_t x = 0; x + 1 < upper_.z_mm.size(); ++x) {
+    const Span columns = {first_u_[x], last_u_[x]};
+    const Span rows = {first_v_[x], last_v_[x]};
+    if (columns.first > columns.last || rows.first > rows.last) continue;
+    raster.Fill(
+        {vertex(upper_, x), vertex(upper_, x + 1), vertex(lower_, x), vertex(lower_, x + 1)},
+        columns, rows);
   }
 }
 

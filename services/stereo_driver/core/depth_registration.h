@@ -49,6 +49,7 @@ class DepthRegistration {
   };
 
   void Project(const cv::Mat& depth_mm, int y, Row& row) const;
+  void FindSurfaceBelow();
   void FillSurface(cv::Mat& registered_mm) const;
   void FillPatches(const std::uint16_t* depth_mm, int y, cv::Mat& registered_mm) const;
   bool IsInsideSurface(int x) const;
@@ -61,7 +62,9 @@ class DepthRegistration {
   Row upper_, lower_;
   /// Whether the surface goes on between columns x - 1 and x, above and below the row that is
   /// being filled. At 0 and at the width it does not.
-  std::vector<std::uint8_t> goes_on_above_, goes_on_below_;
+  std::vector<std::int32_t> goes_on_above_, goes_on_below_;
+  /// What each quad of the surface below the row covers.
+  std::vector<std::int32_t> first_u_, last_u_, first_v_, last_v_;
 };
 
 }  // namespace deixis::stereo_driver

@@ -48,9 +48,10 @@ void RegistrationConfig::Validate() const {
   if (mode == RegistrationMode::kExtrinsics) {
     faults.Require(!extrinsics.empty(), "extrinsics",
                    "must name the file with R T that `scripts/deixis calibrate stereo` writes");
-    faults.Require(intrinsics.empty() != depth_lens.empty(), "intrinsics",
-                   "must name the file with M1 D1 M2 D2 beside it, unless depth_lens names one with "
-                   "the depth camera's lens alone: one of the two");
+    faults.Require(
+        intrinsics.empty() != depth_lens.empty(), "intrinsics",
+        "must name the file with M1 D1 M2 D2 beside it, unless depth_lens names one with "
+        "the depth camera's lens alone: one of the two");
   }
   faults.ThrowIfAny();
 }
@@ -72,9 +73,8 @@ void RegistrationCalibration::ReadBothLenses(const RegistrationConfig& config) {
   colour_lens_ = ReadLensOf(intrinsics, "1");
   depth_lens_ = ReadLensOf(intrinsics, "2");
   if (config.first == FirstCamera::kDepth) std::swap(*colour_lens_, depth_lens_);
-  const cv::Size size = FiledSize(intrinsics.Has("image_width")
-                                      ? intrinsics
-                                      : Open(config.extrinsics, "extrinsics"));
+  const cv::Size size =
+      FiledSize(intrinsics.Has("image_width") ? intrinsics : Open(config.extrinsics, "extrinsics"));
   SetSize(colour_lens_->calibration, size);
   SetSize(depth_lens_.calibration, size);
 }

@@ -37,8 +37,8 @@ struct RegistrationConfig {
   /// lens alone, as `scripts/deixis calibrate camera` writes it. The colour lens is then
   /// depth_camera.calibration.
   std::string depth_lens;
-  std::string extrinsics;  ///< R T of the same calibration: second_from_first.
-  double unit_m = 1.0;     ///< Metres per unit of T.
+  std::string extrinsics;                    ///< R T of the same calibration: second_from_first.
+  double unit_m = 1.0;                       ///< Metres per unit of T.
   FirstCamera first = FirstCamera::kColour;  ///< Of M1 D1, and of whom R T start.
 
   template <typename Visitor>

@@ -122,10 +122,10 @@ class StereoDriver {
   bool is_live_ = true;
   std::optional<Frame> waiting_;  ///< Recorded frame whose time has not come.
 
-  std::optional<RigCalibration> rig_;         ///< For pairs.
-  std::optional<capture::Calibration> lens_;  ///< For colour and depth.
+  std::optional<RigCalibration> rig_;                    ///< For pairs.
+  std::optional<capture::Calibration> lens_;             ///< For colour and depth.
   std::optional<RegistrationCalibration> registration_;  ///< For depth of another view.
-  geometry::StereoCalibration calibration_;   ///< Of the frames that come now.
+  geometry::StereoCalibration calibration_;              ///< Of the frames that come now.
   std::string remark_;
   std::string registration_fault_;
   std::optional<StereoMatcher> matcher_;

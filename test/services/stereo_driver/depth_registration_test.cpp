@@ -90,8 +90,8 @@ int EnclosedHoles(const cv::Mat& depth_mm) {
   for (int i = 1; i < count; ++i) {
     const cv::Rect box(boxes.at<int>(i, cv::CC_STAT_LEFT), boxes.at<int>(i, cv::CC_STAT_TOP),
                        boxes.at<int>(i, cv::CC_STAT_WIDTH), boxes.at<int>(i, cv::CC_STAT_HEIGHT));
-    const bool reaches_border = box.x == 0 || box.y == 0 || box.br().x == depth_mm.cols ||
-                                box.br().y == depth_mm.rows;
+    const bool reaches_border =
+        box.x == 0 || box.y == 0 || box.br().x == depth_mm.cols || box.br().y == depth_mm.rows;
     enclosed += reaches_border ? 0 : 1;
   }
   return enclosed;

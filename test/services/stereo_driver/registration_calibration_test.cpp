@@ -41,7 +41,8 @@ TEST_F(RegistrationCalibrationTest, ReadsWhatTheCalibratorWritesWithColourFirst)
   EXPECT_EQ(remark, "");
   EXPECT_TRUE(view.lens.focal_px.isApprox(truth_.lens.focal_px));
   EXPECT_EQ(view.lens.distortion, truth_.lens.distortion);
-  EXPECT_TRUE(view.colour_from_depth.translation_m.isApprox(truth_.colour_from_depth.translation_m));
+  EXPECT_TRUE(
+      view.colour_from_depth.translation_m.isApprox(truth_.colour_from_depth.translation_m));
   EXPECT_TRUE(view.colour_from_depth.rotation.isApprox(truth_.colour_from_depth.rotation, 1e-9));
   ASSERT_TRUE(calibration.colour_lens());
   EXPECT_TRUE(calibration.colour_lens()->calibration.focal_px.isApprox(ColourLens().focal_px));
@@ -74,10 +75,13 @@ TEST_F(RegistrationCalibrationTest, ScalesTheDepthLens) {
 
 TEST_F(RegistrationCalibrationTest, NamesTheCureForDepthOfAnotherAspect) {
   const RegistrationCalibration calibration(config_);
-  EXPECT_THAT([&] { calibration.For({512, 424}); },
-              ThrowsMessage<ConfigError>(AllOf(HasSubstr("intrinsics.yml"), HasSubstr("320x240"),
-                                               HasSubstr("512x424"),
-                                               HasSubstr("registration.depth_lens"))));
+  EXPECT_THAT(
+      [&] {
+        calibration.For({512, 424});
+      },
+      ThrowsMessage<ConfigError>(AllOf(HasSubstr("intrinsics.yml"), HasSubstr("320x240"),
+                                       HasSubstr("512x424"),
+                                       HasSubstr("registration.depth_lens"))));
 }
 
 TEST_F(RegistrationCalibrationTest, TakesCamerasOnOneAxis) {
@@ -93,9 +97,9 @@ TEST_F(RegistrationCalibrationTest, TakesCamerasOnOneAxis) {
 
 TEST_F(RegistrationCalibrationTest, CountsInUnitsWhenTold) {
   config_.extrinsics = Write("extrinsics.yml", ColourAndDepthExtrinsics(0.001));
-  EXPECT_THAT(Reading(), ThrowsMessage<ConfigError>(
-                             AllOf(HasSubstr("extrinsics.yml"), HasSubstr("T makes"),
-                                   HasSubstr("depth_camera.registration.unit_m"))));
+  EXPECT_THAT(Reading(),
+              ThrowsMessage<ConfigError>(AllOf(HasSubstr("extrinsics.yml"), HasSubstr("T makes"),
+                                               HasSubstr("depth_camera.registration.unit_m"))));
   config_.unit_m = 0.001;
   const DepthView view = RegistrationCalibration(config_).For(kSize).view;
   EXPECT_NEAR(view.colour_from_depth.translation_m.x(), 0.025, 1e-9);
@@ -103,8 +107,8 @@ TEST_F(RegistrationCalibrationTest, CountsInUnitsWhenTold) {
 
 TEST_F(RegistrationCalibrationTest, NamesFileKeyAndCureOfWhatIsMissing) {
   config_.intrinsics = config_.extrinsics;
-  EXPECT_THAT(Reading(), ThrowsMessage<ConfigError>(
-                             AllOf(HasSubstr("extrinsics.yml"), HasSubstr("M1"))));
+  EXPECT_THAT(Reading(),
+              ThrowsMessage<ConfigError>(AllOf(HasSubstr("extrinsics.yml"), HasSubstr("M1"))));
   config_.intrinsics = (folder_.path() / "nowhere.yml").string();
   EXPECT_THAT(Reading(),
               ThrowsMessage<ConfigError>(AllOf(HasSubstr("nowhere.yml"),

@@ -131,10 +131,9 @@ class RegisteringDriverTest : public StereoDriverTest {
   }
 
   const DepthScene scene_ = {{Eigen::Vector3d::UnitZ(), 2.5}, Screen{}};
-  const images::RgbdImage image_ = {
-      {{7}, "", cv::Mat(240, 320, CV_8UC3, cv::Scalar(1, 2, 3))},
-      {{7}, "", MeasureDepth(DepthBesideColour(), scene_)},
-      /*is_registered=*/false};
+  const images::RgbdImage image_ = {{{7}, "", cv::Mat(240, 320, CV_8UC3, cv::Scalar(1, 2, 3))},
+                                    {{7}, "", MeasureDepth(DepthBesideColour(), scene_)},
+                                    /*is_registered=*/false};
 };
 
 TEST_F(RegisteringDriverTest, GivesDepthOfTheViewThatItsCalibrationSays) {
@@ -211,10 +210,10 @@ TEST(DepthCameraConfig, NamesTwoFilesForOneLens) {
   config.registration.mode = RegistrationMode::kExtrinsics;
   config.registration.intrinsics = "intrinsics.yml";
   config.calibration.file = "colour.yml";
-  EXPECT_THAT([&] { config.Validate(); },
-              testing::ThrowsMessage<config::ConfigError>(
-                  testing::AllOf(testing::HasSubstr("calibration.file"),
-                                 testing::HasSubstr("registration.intrinsics"))));
+  EXPECT_THAT(
+      [&] { config.Validate(); },
+      testing::ThrowsMessage<config::ConfigError>(testing::AllOf(
+          testing::HasSubstr("calibration.file"), testing::HasSubstr("registration.intrinsics"))));
 }
 
 TEST_F(StereoDriverTest, SaysTheCalibrationAnewWhenTheSizeChanges) {
