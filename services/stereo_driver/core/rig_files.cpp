@@ -20,7 +20,8 @@ Eigen::Vector3d ReadTranslation(const OpenCvFile& file, double unit_m,
     file.Fail("T makes a baseline of " + std::to_string(baseline_mm) +
               " mm, which is not between " + std::to_string(limits.least_mm) + " and " +
               std::to_string(limits.largest_mm) + "; set " + limits.unit_key +
-              " to the metres per unit of T (0.025 when it counts board squares of 25 mm)");
+              " to the metres per unit of T (0.001 when it is in millimetres, 0.025 when it counts "
+              "board squares of 25 mm)");
   }
   return translation_m;
 }
