@@ -112,6 +112,7 @@ program::StepResult StereoDriverService::Step() {
   const StereoStep step = driver_.Next(clock_.Now());
   if (step.output) Publish(*step.output);
   LogNews();
+  LogRegistration();
   if (step.state == capture::SourceState::kFinished) LogSummary();
   return program::ResultOf(step.state);
 }
@@ -147,16 +148,18 @@ void StereoDriverService::LogNews() {
   const std::string& remark = driver_.calibration_remark();
   if (remark != logged_remark_) logging::Info("calibration", {{"remark", remark}});
   logged_remark_ = remark;
-  const std::string& fault = driver_.registration_fault();
-  if (fault != logged_registration_fault_ && !fault.empty()) {
-    logging::Warn("registration", {{"fault", fault}});
-  }
-  logged_registration_fault_ = fault;
   const std::string trouble = driver_.status().pictures.trouble;
   if (trouble.empty() == logged_trouble_.empty()) return;
   if (trouble.empty()) logging::Info("source_recovered");
   if (!trouble.empty()) logging::Warn("source_lost", {{"reason", trouble}});
   logged_trouble_ = trouble;
+}
+
+void StereoDriverService::LogRegistration() {
+  const std::string& fault = driver_.registration_fault();
+  const bool is_new = fault != logged_registration_fault_;
+  if (is_new && !fault.empty()) logging::Warn("registration", {{"fault", fault}});
+  logged_registration_fault_ = fault;
 }
 
 transport::Health StereoDriverService::health() const {

@@ -63,6 +63,7 @@ class StereoDriverService {
   void Listen(transport::Bus& input);
   void Publish(const StereoOutput& output);
   void LogNews();
+  void LogRegistration();
   void LogSummary() const;
 
   StereoDriverServiceConfig config_;
