@@ -64,22 +64,45 @@ void ViewerService::OnGesture(const scene::Gesture& gesture) {
   history_.Add(gesture);
   if (!files_) return;
   unwritten_.push_back(gesture);
-  if (unwritten_.size() > kMostUnwritten) unwritten_.pop_front();
   WriteGestures();
+  if (unwritten_.size() <= kMostUnwritten) return;
+  GiveUp(unwritten_.front());
+  unwritten_.pop_front();
 }
 
 /// A gesture may be told before its picture comes, or of a picture that was passed over.
 void ViewerService::WriteGestures() {
   for (auto gesture = unwritten_.begin(); gesture != unwritten_.end();) {
     auto scene = history_.From(gesture->time);
-    if (!scene) {
+    if (!scene && !history_.HasPassed(gesture->time)) {
       ++gesture;
       continue;
     }
-    scene->decision = *gesture;
-    Save([&] { files_->WriteGesture(*gesture, DrawOverlay(*scene)); });
+    if (!scene) {
+      GiveUp(*gesture);
+    } else {
+      scene->decision = *gesture;
+      Save([&] { files_->WriteGesture(*gesture, DrawOverlay(*scene)); });
+    }
     gesture = unwritten_.erase(gesture);
   }
+}
+
+/// Told in the log once; how many they are stands in the status.
+void ViewerService::GiveUp(const scene::Gesture& gesture) {
+  if (given_up_++ > 0) return;
+  logging::Warn("gesture_without_picture",
+                {{"event_id", gesture.event_id},
+                 {"utime", gesture.time.microseconds},
+                 {"cure", "listen to the pictures that the gestures come from (image_channel)"}});
+}
+
+transport::Health ViewerService::health() const {
+  transport::Health health{!trouble_.empty(), trouble_};
+  if (given_up_ == 0) return health;
+  if (!health.text.empty()) health.text += "; ";
+  health.text += std::to_string(given_up_) + " gestures without a picture";
+  return health;
 }
 
 void ViewerService::ShowWhatIsReady() {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
@@ -42,14 +43,15 @@ class ViewerService {
   /// Throws ConfigError when there is no display for the window or no folder for the pictures.
   ViewerService(const ViewerServiceConfig& config, transport::Bus& input, transport::Bus& output);
 
-  /// Degraded while pictures cannot be written.
-  transport::Health health() const { return {!trouble_.empty(), trouble_}; }
+  /// Degraded while pictures cannot be written; says how many gestures went without theirs.
+  transport::Health health() const;
 
  private:
   template <typename Message>
   void Collect(transport::Bus& input, const std::string& channel, transport::Delivery delivery);
   void OnGesture(const scene::Gesture& gesture);
   void WriteGestures();
+  void GiveUp(const scene::Gesture& gesture);
   void ShowWhatIsReady();
   bool IsLatestDue(Timestamp time) const;
   template <typename Write>
@@ -59,6 +61,7 @@ class ViewerService {
   SceneHistory history_;
   std::optional<PictureFiles> files_;
   std::deque<scene::Gesture> unwritten_;  ///< Their pictures have not come yet.
+  std::int64_t given_up_ = 0;             ///< Gestures whose picture did not come.
   std::optional<Timestamp> latest_written_;
   std::string trouble_;  ///< Why the last picture could not be written; empty = it was.
 };

@@ -76,6 +76,10 @@ std::optional<Scene> SceneHistory::From(Timestamp time) const {
   return Compose(*image);
 }
 
+bool SceneHistory::HasPassed(Timestamp time) const {
+  return !images_.empty() && SecondsBetween(time, images_.back().time) > config_.max_delay_s;
+}
+
 bool SceneHistory::IsComplete(const images::Image& image) const {
   const bool has_waited = SecondsBetween(image.time, images_.back().time) >= config_.max_delay_s;
   return has_waited || (HasAnswered(objects_, image.time) && HasAnswered(hands_, image.time) &&

@@ -54,6 +54,8 @@ class SceneHistory {
   /// The first picture that is kept of `time` or after; nothing when there is none yet, or the
   /// picture of that time has gone.
   std::optional<Scene> From(Timestamp time) const;
+  /// Whether From(time) will give none any more, if it gives none now: what comes next is too late.
+  bool HasPassed(Timestamp time) const;
 
  private:
   template <typename Result>

@@ -117,8 +117,17 @@ TEST_F(ViewerServiceTest, SaysWhilePicturesCannotBeWritten) {
 TEST_F(ViewerServiceTest, GoesOnWithoutThePictureOfAGesture) {
   ViewerService service(config_, bus_, bus_);
   SendGesture(1, 1'000'000, 0);
+  EXPECT_EQ(service.health().text, "");
   SendImage(2'000'000);
   EXPECT_TRUE(Exists("latest.png"));
+  EXPECT_EQ(service.health().text, "1 gestures without a picture");
+  EXPECT_FALSE(service.health().is_degraded);
+}
+
+TEST_F(ViewerServiceTest, CountsGesturesThatAreTooManyToWait) {
+  ViewerService service(config_, bus_, bus_);
+  for (std::int64_t i = 1; i <= 18; ++i) SendGesture(i, 1'000'000 * i, 0);
+  EXPECT_EQ(service.health().text, "2 gestures without a picture");
 }
 
 TEST_F(ViewerServiceTest, SaysTheCureWhenThereIsNoDisplay) {
