@@ -1,5 +1,7 @@
 #include "common/capture/opencv_file.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -65,6 +67,12 @@ void ReadPinhole(const OpenCvFile& file, const LensKeys& keys, CameraCalibration
   }
 }
 
+/// Those that OpenCV's models have: with thin prism 12, with tilt 14.
+bool IsDistortionCount(std::size_t count) {
+  static constexpr std::array<std::size_t, 5> kCounts{4, 5, 8, 12, 14};
+  return std::find(kCounts.begin(), kCounts.end(), count) != kCounts.end();
+}
+
 /// `values` cut or filled to what the lens model takes; what is cut must be zero.
 std::vector<double> FittedTo(std::size_t count, std::vector<double> values,
                              const OpenCvFile& file) {
@@ -83,9 +91,9 @@ void ReadDistortion(const OpenCvFile& file, const LensKeys& keys, CameraCalibrat
   std::vector<double> values(matrix.begin<double>(), matrix.end<double>());
   const bool is_fisheye = file.IsFisheye();
   const bool is_vector = matrix.rows == 1 || matrix.cols == 1;
-  if (!is_vector || values.size() < 4 || (is_fisheye && values.size() != 4)) {
+  if (!is_vector || !IsDistortionCount(values.size()) || (is_fisheye && values.size() != 4)) {
     file.Fail(Either(keys.distortion, keys.other_distortion) +
-              " must be one row of 4, 5 or 8 values (fisheye: 4)");
+              " must be one row of 4, 5 or 8 values, or 12 or 14 that end in zeros (fisheye: 4)");
   }
   const bool is_plumb_bob = values.size() <= kPlumbBobValues;
   calibration.distortion_model = is_fisheye     ? DistortionModel::kFisheye

@@ -41,7 +41,8 @@ struct LensKeys {
   std::string other_distortion = "D1";
 };
 
-/// A lens without its image size (0). Throws ConfigError.
+/// A lens without its image size (0). Its distortion has 4, 5 or 8 values, or 12 or 14 of which
+/// those of thin prism and tilt are zero; 4 of a fisheye. Throws ConfigError.
 geometry::CameraCalibration ReadLens(const OpenCvFile& file, const LensKeys& keys);
 
 }  // namespace deixis::capture

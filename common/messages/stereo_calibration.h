@@ -7,6 +7,8 @@
 
 namespace deixis::messages {
 
+/// deixis.stereo_calibration_t. What is no calibration (sizes, focal lengths, rotations) is
+/// rejected as `out_of_range`.
 template <>
 struct Codec<geometry::StereoCalibration> {
   static Decoded<geometry::StereoCalibration> Decode(Bytes bytes);

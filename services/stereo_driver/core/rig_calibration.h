@@ -66,12 +66,12 @@ struct FiledRectification {
 /// Knows both lenses and how the cameras stand to each other, for any image size.
 class RigCalibration {
  public:
-  /// Reads both files. Throws ConfigError naming file, key and cure.
+  /// Reads both files. Throws ConfigError naming file, key and cure, also when the cameras cannot
+  /// be rectified left to right (swapped, one above the other, no plausible baseline).
   explicit RigCalibration(RigCalibrationConfig config);
 
   /// The calibration of pictures of `size`, scaled when the files are for another size of the same
-  /// aspect. Throws ConfigError when the aspect is another one or when the cameras cannot be
-  /// rectified left to right (swapped, one above the other, no plausible baseline).
+  /// aspect. Throws ConfigError when the aspect is another one or both cameras share no view.
   RigCalibrationAnswer For(cv::Size size) const;
 
  private:

@@ -72,7 +72,7 @@ class UnusableFrame : public std::runtime_error {
 struct StereoOutput {
   std::optional<geometry::StereoCalibration> calibration;  ///< To be published before the picture.
   std::optional<images::EncodedStereoPair> pair;           ///< As taken, when it was asked for.
-  images::StereoImage stereo;
+  images::StereoImage stereo;  ///< `depth_mm` is the driver's memory: the next call overwrites it.
 };
 
 /// What one step of the driver has brought.

@@ -111,6 +111,9 @@ TEST_F(CalibrationTest, RefusesMatricesOfTheWrongSize) {
               ThrowsMessage<config::ConfigError>(HasSubstr("must be 3x3 but is 2x3")));
   EXPECT_THAT(Reading(kHeader + Matrix("M1", 3, 3, kPinhole) + Matrix("D1", 1, 2, "1., 2.")),
               ThrowsMessage<config::ConfigError>(HasSubstr("4, 5 or 8 values")));
+  EXPECT_THAT(Reading(kHeader + Matrix("M1", 3, 3, kPinhole) +
+                      Matrix("D1", 1, 6, "0.1, 0., 0., 0., 0., 0.2")),
+              ThrowsMessage<config::ConfigError>(HasSubstr("4, 5 or 8 values")));
 }
 
 TEST_F(CalibrationTest, RefusesWhatIsNoMatrix) {
