@@ -46,10 +46,12 @@ void SetTime(Timestamp time, Frame& frame) {
   }
 }
 
-/// A depth camera, said as a pair of cameras: both are the colour camera.
-geometry::StereoCalibration AsStereo(const geometry::CameraCalibration& lens, double sigma_m) {
+/// A depth camera, said as a pair of cameras: both are the colour camera. Only its distortion is
+/// taken out: it is not turned, whatever rectification a robot says of it for a pair of its own.
+geometry::StereoCalibration AsStereo(geometry::CameraCalibration lens, double sigma_m) {
   geometry::StereoCalibration calibration;
-  calibration.left = calibration.right = calibration.rectified = lens;
+  lens.rectification.setIdentity();
+  calibration.left = calibration.right = calibration.rectified = std::move(lens);
   calibration.rectified.distortion_model = geometry::DistortionModel::kNone;
   calibration.rectified.distortion.clear();
   calibration.depth_sigma_m_at_1m = sigma_m;
@@ -202,7 +204,7 @@ void StereoDriver::PrepareDepthCamera(cv::Size size, cv::Size depth_size) {
   depth_camera_.reset();
   auto [lens, remark] = lens_->For(size);
   remark_ = std::move(remark);
-  calibration_ = AsStereo(lens, config_.depth_camera.depth_sigma_m_at_1m);
+  calibration_ = AsStereo(std::move(lens), config_.depth_camera.depth_sigma_m_at_1m);
   depth_camera_.emplace(calibration_, config_.matcher.depth_size, ViewOfDepth(depth_size));
   depth_camera_size_ = depth_size;
   calibration_sent_.reset();

@@ -216,6 +216,20 @@ TEST(DepthCameraConfig, NamesTwoFilesForOneLens) {
           testing::HasSubstr("calibration.file"), testing::HasSubstr("registration.intrinsics"))));
 }
 
+TEST_F(StereoDriverTest, SaysOfADepthCameraThatNothingIsTurned) {
+  config_.source.kind = FrameSourceKind::kDimos;
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  auto lens = geometry::GuessCalibration(64, 48, 1.0);
+  lens.rectification = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  driver.UseLens(lens);
+  const auto calibration = driver.Convert(Rgbd({64, 48})).calibration;
+  ASSERT_TRUE(calibration);
+  EXPECT_EQ(calibration->rectified.focal_px, lens.focal_px);
+  for (const auto* camera : {&calibration->left, &calibration->right, &calibration->rectified}) {
+    EXPECT_TRUE(camera->rectification.isIdentity());
+  }
+}
+
 TEST_F(StereoDriverTest, SaysTheCalibrationAnewWhenTheSizeChanges) {
   config_.source.kind = FrameSourceKind::kKinectChannel;
   StereoDriver driver(config_, nullptr, KeepPairs::kNo);
