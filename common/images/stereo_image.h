@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core/mat.hpp>
 
@@ -14,12 +15,13 @@ struct StereoImage {
 };
 
 /// Whether depth of one size may cover the view of a picture of another: their aspects differ by no
-/// more than rounding may have made of one.
+/// more than 2 % and half a pixel, which rounding takes from either side of a picture made smaller.
 inline bool MayCoverSameView(cv::Size depth, cv::Size picture) {
   constexpr double kTolerance = 0.02;
   const double wide = 1.0 * depth.width * picture.height;
   const double high = 1.0 * depth.height * picture.width;
-  return std::abs(wide - high) <= kTolerance * high;
+  const double rounding = 0.5 * std::max(picture.width, picture.height);
+  return std::abs(wide - high) <= kTolerance * high + rounding;
 }
 
 }  // namespace deixis::images

@@ -99,28 +99,29 @@ void StereoDriverService::Listen(transport::Bus& input) {
   if (config_.driver.source.kind == FrameSourceKind::kPairChannel) {
     input.Subscribe<images::StereoPair>(
         config_.pair_channel, Delivery::kLatest,
-        [this](const images::StereoPair& pair) { Publish(driver_.Convert(pair)); });
+        [this](const images::StereoPair& pair) { PublishIfUsable(driver_.TryConvert(pair)); });
   }
   if (config_.driver.source.kind == FrameSourceKind::kKinectChannel) {
     input.Subscribe<images::RgbdImage>(
         config_.kinect_channel, Delivery::kLatest,
-        [this](const images::RgbdImage& image) { Publish(driver_.Convert(image)); });
+        [this](const images::RgbdImage& image) { PublishIfUsable(driver_.TryConvert(image)); });
   }
 }
 
 program::StepResult StereoDriverService::Step() {
   const StereoStep step = driver_.Next(clock_.Now());
-  if (step.output) Publish(*step.output);
+  PublishIfUsable(step.output);
   LogNews();
   LogRegistration();
   if (step.state == capture::SourceState::kFinished) LogSummary();
   return program::ResultOf(step.state);
 }
 
-void StereoDriverService::Publish(const StereoOutput& output) {
-  if (output.calibration) output_.Publish(config_.calibration_channel, *output.calibration);
-  if (output.pair) output_.Publish(config_.pair_channel, *output.pair);
-  output_.Publish(config_.stereo_channel, output.stereo);
+void StereoDriverService::PublishIfUsable(const std::optional<StereoOutput>& output) {
+  if (!output) return;
+  if (output->calibration) output_.Publish(config_.calibration_channel, *output->calibration);
+  if (output->pair) output_.Publish(config_.pair_channel, *output->pair);
+  output_.Publish(config_.stereo_channel, output->stereo);
   ++published_;
 }
 

@@ -61,7 +61,7 @@ class StereoDriverService {
   std::unique_ptr<FrameSource> SourceOf(const StereoDriverServiceConfig& config,
                                         transport::Bus& input);
   void Listen(transport::Bus& input);
-  void Publish(const StereoOutput& output);
+  void PublishIfUsable(const std::optional<StereoOutput>& output);
   void LogNews();
   void LogRegistration();
   void LogSummary() const;

@@ -14,6 +14,7 @@ using capture::SourceState;
 
 constexpr double kCalibrationPeriod_s = 1.0;
 constexpr double kLargestDepthSigma_m = 1.0;
+constexpr int kLeastMatched_px = 16;  // Below it OpenCV's matchers find no room for their windows.
 
 bool MeasuresDepth(FrameSourceKind kind) {
   return kind == FrameSourceKind::kColourAndDepth || kind == FrameSourceKind::kKinectChannel ||
@@ -76,6 +77,11 @@ void RequireSameView(const images::RgbdImage& image) {
   if (images::MayCoverSameView(depth, picture)) return;
   throw UnusableFrame("depth of " + Text(depth) + " is of another aspect than its picture of " +
                       Text(picture));
+}
+
+void RequireMatchable(cv::Size size) {
+  if (size.width >= kLeastMatched_px && size.height >= kLeastMatched_px) return;
+  throw UnusableFrame("pictures of " + Text(size) + " are too small to be matched");
 }
 
 capture::Calibration ColourLens(const capture::CalibrationConfig& config,
@@ -144,12 +150,8 @@ StereoStep StereoDriver::Next(Timestamp now) {
   const Timestamp time = is_live_ ? waiting_->time : pacer_.CaptureTime(waiting_->time);
   Frame frame = std::move(*waiting_);
   waiting_.reset();  // Whatever comes of it, it is not tried again.
-  try {
-    step.output = ConvertAt(time, std::move(frame));
-  } catch (const UnusableFrame&) {
-    ++unusable_;
-    step.state = SourceState::kWaiting;
-  }
+  step.output = ConvertAt(time, std::move(frame));
+  if (!step.output) step.state = SourceState::kWaiting;
   return step;
 }
 
@@ -162,12 +164,13 @@ SourceState StereoDriver::Fetch() {
 
 bool StereoDriver::IsDue(Timestamp now) { return is_live_ || pacer_.IsDue(waiting_->time, now); }
 
-StereoOutput StereoDriver::ConvertAt(Timestamp time, Frame frame) {
+std::optional<StereoOutput> StereoDriver::ConvertAt(Timestamp time, Frame frame) {
   SetTime(time, frame);
-  return std::visit([this](const auto& images) { return Convert(images); }, frame.images);
+  return std::visit([this](const auto& images) { return TryConvert(images); }, frame.images);
 }
 
 StereoOutput StereoDriver::Convert(const images::StereoPair& pair) {
+  RequireMatchable(pair.left.bgr.size());
   PrepareRig(pair.left.bgr.size());
   StereoOutput output = Packed(matcher_->Measure(pair), pair.left.time);
   if (keep_pairs_ == KeepPairs::kYes) output.pair = Encoded(pair, config_);

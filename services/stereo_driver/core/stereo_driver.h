@@ -98,9 +98,21 @@ class StereoDriver {
   /// when the calibration does not suit the pictures.
   StereoStep Next(Timestamp now);
 
+  /// Throws UnusableFrame when the pictures are too small to be matched, and ConfigError when the
+  /// calibration does not suit them.
   StereoOutput Convert(const images::StereoPair& pair);
   /// Throws UnusableFrame when the depth cannot cover the colour picture's view.
   StereoOutput Convert(const images::RgbdImage& image);
+  /// The same, but of an unusable frame nothing; it is counted.
+  template <typename Images>
+  std::optional<StereoOutput> TryConvert(const Images& images) {
+    try {
+      return Convert(images);
+    } catch (const UnusableFrame&) {
+      ++unusable_;
+      return std::nullopt;
+    }
+  }
 
   /// The colour camera's lens as somebody else says it; a calibration file goes before it.
   void UseLens(const geometry::CameraCalibration& lens);
@@ -116,7 +128,7 @@ class StereoDriver {
  private:
   capture::SourceState Fetch();
   bool IsDue(Timestamp now);
-  StereoOutput ConvertAt(Timestamp time, Frame frame);
+  std::optional<StereoOutput> ConvertAt(Timestamp time, Frame frame);
   void PrepareRig(cv::Size size);
   void PrepareDepthCamera(cv::Size size, cv::Size depth_size);
   std::optional<DepthView> ViewOfDepth(cv::Size depth_size);

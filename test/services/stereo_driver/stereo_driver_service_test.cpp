@@ -121,7 +121,7 @@ TEST_F(StereoDriverServiceTest, CountsDepthOfAnotherViewAndGoesOn) {
   EXPECT_THAT(service.health().text, HasSubstr("1 pictures that make no pair"));
 }
 
-TEST_F(StereoDriverServiceTest, DropsAKinectsDepthOfAnotherView) {
+TEST_F(StereoDriverServiceTest, CountsAKinectsDepthOfAnotherViewAndGoesOn) {
   config_.driver.source.kind = FrameSourceKind::kKinectChannel;
   StereoDriverService service(config_, bus_, bus_);
   bus_.Publish("KINECT_FRAME",
@@ -129,7 +129,23 @@ TEST_F(StereoDriverServiceTest, DropsAKinectsDepthOfAnotherView) {
                                  {{5}, "", cv::Mat(180, 320, CV_16UC1, cv::Scalar(2000))}});
   test::HandleAll(bus_);
   EXPECT_TRUE(received_.empty());
-  EXPECT_EQ(DropsOn("KINECT_FRAME")["handler_failed"], 1);
+  EXPECT_THAT(DropsOn("KINECT_FRAME"), IsEmpty());
+  EXPECT_THAT(service.health().text, HasSubstr("1 pictures that make no pair"));
+}
+
+TEST_F(StereoDriverServiceTest, CountsPairsThatAreTooSmallAndGoesOn) {
+  config_.driver.source.kind = FrameSourceKind::kPairChannel;
+  StereoDriverService service(config_, bus_, bus_);
+  std::int64_t unusable = 0;
+  for (const cv::Size size : {cv::Size(1, 1), {2, 40}, {40, 3}, {16, 16}, {17, 33}, {33, 17}}) {
+    if (std::min(size.width, size.height) < 16) ++unusable;
+    const cv::Mat bgr(size, CV_8UC3, cv::Scalar(1, 2, 3));
+    bus_.Publish("STEREO_PAIR", images::StereoPair{{{1}, "", bgr}, {{1}, "", bgr}});
+    test::HandleAll(bus_);
+  }
+  EXPECT_THAT(DropsOn("STEREO_PAIR"), IsEmpty());
+  EXPECT_EQ(received_.size(), 3u);
+  EXPECT_THAT(service.health().text, HasSubstr(std::to_string(unusable) + " pictures that make"));
 }
 
 TEST_F(StereoDriverServiceTest, MatchesRecordedPairsAgainToTheSame) {
