@@ -3,6 +3,9 @@
 #include <bot_core/images_t.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sensor_msgs/CameraInfo.hpp>
+#include <sensor_msgs/CompressedImage.hpp>
+#include <sensor_msgs/Image.hpp>
 
 #include "common/messages/camera_calibration.h"
 #include "common/messages/gesture.h"
@@ -26,6 +29,9 @@ using messages::Codec;
 
 constexpr int kWidth_px = 32;
 constexpr int kHeight_px = 24;
+constexpr const char* kColour = "/color_image#sensor_msgs.Image";
+constexpr const char* kDepth = "/depth_image#sensor_msgs.Image";
+constexpr const char* kInfo = "/camera_info#sensor_msgs.CameraInfo";
 
 template <typename T>
 GoodMessage Of(const std::string& name, const std::string& channel, const T& value) {
@@ -161,6 +167,58 @@ geometry::StereoCalibration Rig(Timestamp time) {
   return rig;
 }
 
+std_msgs::Header RobotHeader(std::int64_t utime_us) {
+  std_msgs::Header header{};
+  header.stamp.sec = static_cast<std::int32_t>(utime_us / 1'000'000);
+  header.stamp.nsec = static_cast<std::int32_t>(utime_us % 1'000'000 * 1000);
+  header.frame_id = "camera";
+  return header;
+}
+
+sensor_msgs::Image RobotPicture(const std::string& encoding, std::vector<std::uint8_t> data,
+                                int row_bytes, std::int64_t utime_us) {
+  sensor_msgs::Image message{};
+  message.header = RobotHeader(utime_us);
+  message.width = kWidth_px;
+  message.height = kHeight_px;
+  message.encoding = encoding;
+  message.step = row_bytes;
+  message.data = std::move(data);
+  message.data_length = static_cast<std::int32_t>(message.data.size());
+  return message;
+}
+
+sensor_msgs::Image RobotRaw(const std::string& encoding, int bytes_per_pixel,
+                            std::int64_t utime_us) {
+  const int row_bytes = kWidth_px * bytes_per_pixel;
+  return RobotPicture(encoding, std::vector<std::uint8_t>(row_bytes * kHeight_px, 62), row_bytes,
+                      utime_us);
+}
+
+sensor_msgs::CompressedImage RobotJpeg(std::int64_t utime_us) {
+  sensor_msgs::CompressedImage message{};
+  message.header = RobotHeader(utime_us);
+  message.format = "jpeg";
+  message.data = Jpeg();
+  message.data_length = static_cast<std::int32_t>(message.data.size());
+  return message;
+}
+
+sensor_msgs::CameraInfo RobotLens(std::int64_t utime_us) {
+  sensor_msgs::CameraInfo message{};
+  message.header = RobotHeader(utime_us);
+  message.width = kWidth_px;
+  message.height = kHeight_px;
+  message.distortion_model = "plumb_bob";
+  message.D = {0.1, -0.2, 0.001, 0.002, 0.3};
+  message.D_length = static_cast<std::int32_t>(message.D.size());
+  message.K[0] = message.K[4] = 30.0;
+  message.K[2] = 0.5 * (kWidth_px - 1);
+  message.K[5] = 0.5 * (kHeight_px - 1);
+  message.K[8] = 1.0;
+  return message;
+}
+
 messages::ServiceStatus Status(Timestamp time) {
   messages::ServiceStatus status;
   status.time = time;
@@ -191,6 +249,13 @@ std::vector<GoodMessage> GoodMessages(std::int64_t utime_us) {
       Of("stereo_pair", "STEREO_PAIR", images::EncodedStereoPair{Encoded(time), Encoded(time)}),
       Of("stereo_calibration", "STEREO_CALIBRATION", Rig(time)),
       Of("kinect", "KINECT_FRAME", Rgbd(time)),
+      {"dimos_info", kInfo, messages::EncodeWire(RobotLens(utime_us))},
+      {"dimos_jpeg", kColour, messages::EncodeWire(RobotPicture("jpeg", Jpeg(), 0, utime_us))},
+      {"dimos_compressed", kColour, messages::EncodeWire(RobotJpeg(utime_us))},
+      {"dimos_yuyv", kColour, messages::EncodeWire(RobotRaw("yuv422_yuy2", 2, utime_us))},
+      {"dimos_colour", kColour, messages::EncodeWire(RobotRaw("rgb8", 3, utime_us))},
+      {"dimos_depth_m", kDepth, messages::EncodeWire(RobotRaw("32FC1", 4, utime_us))},
+      {"dimos_depth", kDepth, messages::EncodeWire(RobotRaw("16UC1", 2, utime_us))},
       Of("hands", "HAND_TRACKS", OneHand(time)),
       Of("gesture_state", "GESTURE_STATE", State(time)),
       Of("gesture", "GESTURES", Pointing(time)),

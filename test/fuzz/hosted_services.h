@@ -10,7 +10,8 @@
 
 namespace deixis::fuzz {
 
-/// Every service that listens, as shipped configurations have it, on one private bus.
+/// Every service that listens, as shipped configurations have it, on one private bus: the drivers
+/// once in each mode in which they listen.
 class HostedServices {
  public:
   HostedServices();
@@ -30,7 +31,10 @@ class HostedServices {
   class Host;
   template <typename Service, typename Config>
   void Add(const std::string& file, const std::vector<std::string>& overrides = {});
+  void AddDrivers();
+  void NoteNewChannels();
   void HandleAll();
+  void SendGood(const std::string& name);
   std::map<std::string, std::int64_t> Published() const;
 
   test::TemporaryFolder folder_;

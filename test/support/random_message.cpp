@@ -58,8 +58,9 @@ class Writer {
   }
 
   void String() {
-    static constexpr std::array<const char*, 6> kTexts{
-        "", "camera", "none", "cup \xC3\xA9", "plumb_bob", "a longer text"};
+    static constexpr std::array<const char*, 10> kTexts{
+        "",     "camera", "none",  "cup \xC3\xA9", "plumb_bob", "a longer text",
+        "rgb8", "16UC1",  "32FC1", "jpeg"};
     const std::string text = kTexts[Below(kTexts.size())];
     Number(text.size() + 1, 4);
     bytes_.insert(bytes_.end(), text.begin(), text.end());
