@@ -149,17 +149,41 @@ def test_a_url_that_lets_messages_out_is_a_warning() -> None:
     assert network.reach(URL)[0].level == OK
 
 
+def nft(rule: str, hook: str = "input", table: str = "inet", before: str = "") -> str:
+    """What nft lists of a table with one chain."""
+    return (f"table {table} filter {{\n\tset others {{\n\t\ttype ipv4_addr\n\t}}\n\n"
+            f"\tchain guard {{\n\t\ttype filter hook {hook} priority filter; policy accept;\n"
+            f"\t\t{before}\n\t\t{rule}\n\t}}\n}}\n")
+
+
+POLICY = "table ip filter {{\n chain x {{\n type filter hook {} priority 0; policy drop;\n }}\n}}"
+
+
 @pytest.mark.parametrize(("rules", "is_closed"), [
-    ('udp dport 7667 iifname != "lo" drop', True), ("udp dport { 22, 7667 } reject", True),
-    ("udp dport 7000-8000 drop", True), ("-A INPUT ! -i lo -p udp --dport 7667 -j DROP", True),
+    (nft('udp dport 7667 iifname != "lo" drop'), True), (nft("udp dport { 22, 7667 } reject"), True),
+    (nft("udp dport 7000-8000 counter packets 3 bytes 40 drop"), True),
+    (nft("meta l4proto { tcp, udp } th dport 7667 drop"), True),
+    (nft("counter packets 0 bytes 0 drop"), True),
+    (nft("udp dport 7667 drop", before="ct state established,related accept"), True),
+    ("-A INPUT ! -i lo -p udp -m udp --dport 7667 -j DROP", True), ("-A INPUT -j DROP", True),
     ("-A INPUT -p udp -m multiport --dports 7660:7670 -j REJECT", True),
-    ("udp dport 7668 drop", False), ("udp dport 17667 drop", False),
-    ("udp dport 7667 accept", False), ("", False), ("-P INPUT ACCEPT", False),
-    ("type filter hook input priority filter; policy drop;", True), ("-P INPUT DROP", True),
-    ("type filter hook output priority filter; policy drop;", False),
+    (nft("udp dport 7668 drop"), False), (nft("udp dport 17667 drop"), False),
+    (nft("udp dport 7667 accept"), False), ("", False), ("-P INPUT ACCEPT", False),
+    (POLICY.format("input"), True), ("-P INPUT DROP", True), (POLICY.format("output"), False),
     ("-P INPUT DROP\n-A INPUT -p udp --dport 7667 -j ACCEPT", False),
     ("-P INPUT DROP\n-A INPUT -i eth0 -j ACCEPT", False),
-    ("-P INPUT DROP\n-A INPUT -i lo -j ACCEPT\n-A INPUT -p tcp --dport 22 -j ACCEPT", True)])
+    ("-P INPUT DROP\n-A INPUT -i lo -j ACCEPT\n-A INPUT -p tcp --dport 22 -j ACCEPT", True),
+    # Those that refuse something else, or some only.
+    (nft("tcp dport 7000-8000 drop"), False), ("-A INPUT -p tcp --dport 7667 -j DROP", False),
+    (nft("udp dport 7667 drop", hook="output"), False),
+    (nft("udp dport 7667 drop", table="ip6"), False),
+    (nft('udp dport 7667 iifname "lo" drop'), False),
+    ("-A INPUT -s 10.0.0.5/32 -p udp -m udp --dport 7667 -j DROP", False),
+    ("-A FORWARD -p udp -m udp --dport 7667 -j DROP", False),
+    (nft("udp dport 7667 limit rate over 5/second drop"), False),
+    (nft("udp dport != 7667 drop"), False), (nft("udp sport 7667 drop"), False),
+    (nft("udp dport 7667 drop", before='iifname "eth0" accept'), False),
+    (nft("udp dport 7667 drop", before="jump others"), False)])
 def test_rules_that_close_the_port_are_found(rules: str, is_closed: bool) -> None:
     assert bool(firewall.closing_rule(rules, 7667)) == is_closed
 
@@ -174,10 +198,10 @@ def fence(monkeypatch: pytest.MonkeyPatch, interfaces: list[str], user: int, rul
 
 def test_the_fence_is_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     assert fence(monkeypatch, [], 0, "").level == OK
-    assert fence(monkeypatch, ["eth0"], 0, "udp dport 7667 drop").level == OK
+    assert fence(monkeypatch, ["eth0"], 0, nft("udp dport 7667 drop")).level == OK
     open_port = fence(monkeypatch, ["eth0"], 0, "")
     assert open_port.level == WARNING and "udp dport 7667" in open_port.cure
-    asked_of_root = fence(monkeypatch, ["eth0"], 1000, "udp dport 7667 drop")
+    asked_of_root = fence(monkeypatch, ["eth0"], 1000, nft("udp dport 7667 drop"))
     assert asked_of_root.level == WARNING and asked_of_root.cure.startswith("sudo deixis doctor")
 
 
