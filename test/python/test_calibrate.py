@@ -96,7 +96,7 @@ def test_a_camera_is_calibrated_from_files(pictures: Path, tmp_path: Path) -> No
     again = deixis("calibrate", "camera", *BOARD, "--pictures", pictures / "left*.png", "-o", output)
     assert again.returncode == 1
     assert again.stderr.splitlines() == [
-        f"deixis-calibrator: {output} is there already: name another --output, or give --replace"]
+        f"deixis-calibrator: {output} is there already: name another --output, or give --force"]
 
 
 def test_a_stereo_pair_is_calibrated_from_files(pictures: Path, tmp_path: Path) -> None:
@@ -159,6 +159,16 @@ def test_the_evaluation_compares_with_the_sample(pictures: Path, tmp_path: Path,
     assert said.startswith("12 pairs")
     assert "opencv sample" in said
     assert '"held_out_rows"' in report.read_text(encoding="utf-8")
+
+
+def test_pictures_of_an_evaluation_leave_the_rigs_calibration_alone(pictures: Path,
+                                                                    tmp_path: Path) -> None:
+    (tmp_path / "intrinsics.yml").write_text("the rig's own\n", encoding="ascii")
+    assert main(["evaluate", "calibration", "--data", str(pictures), "--left", "left*.png",
+                 "--right", "right*.png", "--save", str(tmp_path)]) == 0
+    assert (tmp_path / "intrinsics.yml").read_text(encoding="ascii") == "the rig's own\n"
+    assert not (tmp_path / "extrinsics.yml").exists()
+    assert (tmp_path / "rectified.png").exists()
 
 
 def test_an_evaluation_without_pictures_is_told(tmp_path: Path,
