@@ -19,9 +19,11 @@ from deixis_frontend import layout, lcm_url
 from deixis_frontend.doctor import firewall, fixing, installation, machine, network, services
 from deixis_frontend.doctor.command_lines import CommandLines
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding, examine
+from deixis_frontend.doctor.wanted_cameras import wanted_cameras
 from deixis_frontend.errors import UserError
 from deixis_frontend.listening.source import Arrival
 from deixis_frontend.listening.traffic import Traffic
+from deixis_frontend.supervision import system_file
 
 URL = lcm_url.parse("udpm://239.255.76.67:7667?ttl=0")
 COMMANDS = CommandLines(URL, None)
@@ -211,20 +213,31 @@ def test_interfaces_that_are_up_are_found() -> None:
 
 
 def test_cameras_that_are_there_missing_and_in_use(tmp_path: Path) -> None:
-    assert [f.level for f in machine.cameras(None, tmp_path)] == [OK]
-    [missing] = machine.cameras(str(tmp_path / "video0"), tmp_path)
-    assert missing.level == PROBLEM and "video0" in missing.text
+    wanted = {str(tmp_path / "video0"): Path("my.yaml")}
+    assert [f.level for f in machine.cameras({}, tmp_path)] == [OK]
+    [missing] = machine.cameras(wanted, tmp_path)
+    assert missing.level == PROBLEM and "video0" in missing.text and "my.yaml" in missing.text
     (tmp_path / "video0").touch()
-    assert [f.level for f in machine.cameras(str(tmp_path / "video0"), tmp_path)] == [OK]
+    assert [f.level for f in machine.cameras(wanted, tmp_path)] == [OK]
     with (tmp_path / "video0").open("rb"):
-        [used] = machine.cameras(None, tmp_path)
+        [used] = machine.cameras({}, tmp_path)
     assert used.level == WARNING and f"pid {os.getpid()}" in used.text
+
+
+@pytest.mark.parametrize("program", ["camera-driver", "stereo-driver", "calibrator"])
+def test_a_camera_that_our_own_programs_use_is_in_order(program: str, tmp_path: Path,
+                                                        monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "video0").touch()
+    monkeypatch.setattr(machine, "command_name", lambda pid: f"deixis-{program} pid {pid}")
+    with (tmp_path / "video0").open("rb"):
+        [used] = machine.cameras({}, tmp_path)
+    assert used.level == OK and f"in use by deixis-{program}" in used.text
 
 
 def test_a_camera_of_others_is_a_problem(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "video0").touch()
     monkeypatch.setattr(os, "access", lambda *_: False)  # root may open everything
-    [finding] = machine.cameras(None, tmp_path)
+    [finding] = machine.cameras({}, tmp_path)
     assert finding.level == PROBLEM and "usermod -aG video" in finding.cure
 
 
@@ -314,18 +327,21 @@ def test_a_service_of_another_version_is_a_problem() -> None:
     assert not services.versions(heard(status("tracker")), COMMANDS)
 
 
-@pytest.mark.parametrize(("settings", "device"), [
-    ({}, "/dev/video0"), ({"source.path": "3"}, "/dev/video3"),
-    ({"source.path": "/dev/front"}, "/dev/front"), ({"source.kind": "video"}, None)])
-def test_the_camera_that_is_asked_for_is_read_from_the_configuration(
-        bench: Bench, settings: dict[str, str], device: str | None, repository: Path) -> None:
-    from deixis_frontend.supervision import system_file
-
-    bench.write({"eye": {"program": "deixis-camera-driver", "set": settings,
-                         "config": str(repository / "config" / "camera_driver.yaml")}},
-                start=["eye"])
+@pytest.mark.parametrize(("driver", "settings", "devices"), [
+    ("camera", {}, ["/dev/video0"]), ("camera", {"source.path": "3"}, ["/dev/video3"]),
+    ("camera", {"source.path": "/dev/front"}, ["/dev/front"]), ("camera", {"source.kind": "video"}, []),
+    ("stereo", {}, ["/dev/video0", "/dev/video2"]),
+    ("stereo", {"source.kind": "side_by_side"}, ["/dev/video0"]),
+    ("stereo", {"source.left.kind": "video", "source.right.path": "7"}, ["/dev/video7"]),
+    ("stereo", {"source.kind": "kinect_channel"}, [])])
+def test_cameras_that_are_asked_for_are_read_from_the_configuration(
+        bench: Bench, driver: str, settings: dict[str, str], devices: list[str],
+        repository: Path) -> None:
+    file = repository / "config" / f"{driver}_driver.yaml"
+    bench.write({"eye": {"program": f"deixis-{driver}-driver", "set": settings,
+                         "config": str(file)}}, start=["eye"])
     system = system_file.load(bench.system_file)
-    assert services.wanted_camera(system, layout.find()) == device
+    assert wanted_cameras(system, layout.find()) == dict.fromkeys(devices, file)
 
 
 def test_a_check_that_cannot_look_is_a_problem() -> None:

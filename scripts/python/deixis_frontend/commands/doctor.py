@@ -12,6 +12,7 @@ from deixis_frontend.commands.system_option import add_system, open_system
 from deixis_frontend.doctor import fixing, installation, machine, network, services
 from deixis_frontend.doctor.command_lines import CommandLines
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Check, Finding, examine
+from deixis_frontend.doctor.wanted_cameras import wanted_cameras
 from deixis_frontend.channel_patterns import any_of
 from deixis_frontend.layout import Layout
 from deixis_frontend.lcm_url import LcmUrl
@@ -110,7 +111,7 @@ def _of_system(arguments: argparse.Namespace, url: LcmUrl, layout: Layout) -> li
     return [finding for name, check in {
         "programs": lambda: installation.programs(layout, system),
         "disk": lambda: [finding for folder in folders for finding in machine.disk(folder)],
-        "camera": lambda: machine.cameras(services.wanted_camera(system, layout)),
+        "camera": lambda: machine.cameras(wanted_cameras(system, layout)),
         "system": lambda: services.supervisor(client, system, url),
     }.items() for finding in examine(name, check)]
 
