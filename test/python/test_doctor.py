@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 import json
 import os
 import shutil
 import socket
+import subprocess
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +29,8 @@ from deixis_frontend.listening.traffic import Traffic
 from deixis_frontend.supervision import system_file
 
 URL = lcm_url.parse("udpm://239.255.76.67:7667?ttl=0")
-COMMANDS = CommandLines(URL, None)
+LAUNCHER = layout.find().launcher
+COMMANDS = CommandLines(LAUNCHER, URL, None)
 
 
 def doctor(bench: Bench, *arguments: str) -> tuple[int, dict[str, Any]]:
@@ -63,7 +67,7 @@ def test_a_system_on_another_bus_is_pointed_at(bench: Bench) -> None:
     other = str(lcm_url.with_free_port())
     _, report = doctor(bench, "-l", other)
     [finding] = [finding for finding in report["findings"] if finding["check"] == "system"]
-    assert finding["level"] == WARNING and finding["cure"] == f"deixis doctor -l '{bench.url}'"
+    assert finding["level"] == WARNING and finding["cure"] == f"{LAUNCHER} doctor -l '{bench.url}'"
 
 
 def test_missing_and_other_programs_are_problems(bench: Bench) -> None:
@@ -82,6 +86,17 @@ def test_a_wrong_system_file_is_a_problem_among_others(bench: Bench) -> None:
     code, report = doctor(bench)
     assert code == 1 and PROBLEM in levels(report, "system")
     assert levels(report, "publishers") == [OK]
+
+
+def test_cures_run_as_they_are_printed(bench: Bench) -> None:
+    bench.write({"one": {}})
+    with speaking(bench.url, lambda n: ("TWO", hand_tracks_t().encode()),
+                  lambda n: ("TWO", objects_t().encode())):
+        _, report = doctor(bench)
+        [finding] = [finding for finding in report["findings"] if finding["check"] == "types"]
+        shown = subprocess.run(["sh", "-c", finding["cure"]], capture_output=True, text=True,
+                               check=False, timeout=30, cwd="/")
+    assert shown.returncode == 0 and "# TWO " in shown.stdout, shown
 
 
 def test_two_publishers_and_two_types_on_a_channel_are_problems(bench: Bench) -> None:
@@ -136,8 +151,10 @@ def test_a_small_receive_buffer_is_a_warning(monkeypatch: pytest.MonkeyPatch) ->
     assert finding.fixes == (("sysctl", "-w", "net.core.rmem_max=4194304"),)
     monkeypatch.setattr(network, "granted_buffer", lambda asked: asked)
     assert network.receive_buffer(URL)[0].level == OK
-    asking = lcm_url.parse("udpm://239.255.76.67:7667?ttl=0&recv_buf_size=1000")
-    assert network.receive_buffer(asking)[0].level == WARNING
+    asking = lcm_url.parse("udpm://239.255.76.67:7667?ttl=1&recv_buf_size=1000")
+    [small] = network.receive_buffer(asking)
+    assert small.level == WARNING
+    assert small.cure == "export LCM_DEFAULT_URL='udpm://239.255.76.67:7667?ttl=1'"
 
 
 def test_the_buffer_is_what_the_kernel_grants() -> None:
@@ -194,7 +211,7 @@ def fence(monkeypatch: pytest.MonkeyPatch, interfaces: list[str], user: int, rul
     monkeypatch.setattr(network, "_interfaces_to_others", lambda: interfaces)
     monkeypatch.setattr(network, "_rules", lambda: rules)
     monkeypatch.setattr(os, "geteuid", lambda: user)
-    [finding] = network.fence(URL)
+    [finding] = network.fence(URL, COMMANDS)
     return finding
 
 
@@ -204,7 +221,7 @@ def test_the_fence_is_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     open_port = fence(monkeypatch, ["eth0"], 0, "")
     assert open_port.level == WARNING and "udp dport 7667" in open_port.cure
     asked_of_root = fence(monkeypatch, ["eth0"], 1000, nft("udp dport 7667 drop"))
-    assert asked_of_root.level == WARNING and asked_of_root.cure.startswith("sudo deixis doctor")
+    assert asked_of_root.level == WARNING and asked_of_root.cure == f"sudo {LAUNCHER} doctor -l '{URL}'"
 
 
 def test_interfaces_that_are_up_are_found() -> None:
@@ -277,11 +294,30 @@ def test_modules_are_compared_with_those_that_are_tested(monkeypatch: pytest.Mon
     monkeypatch.setattr(installation, "_requirements", lambda: {"lcm": "0.0.1"})
     [other] = installation.python(layout.find())
     assert other.level == WARNING and "tested is 0.0.1" in other.text
-    monkeypatch.setattr(installation, "_requirements", lambda: {"PyYAML-no": "1"})
-    assert installation.python(layout.find())[0].level == WARNING  # One that only tests need.
-    monkeypatch.setattr(installation, "_NEEDED", ("PyYAML-no",))
-    [missing] = installation.python(layout.find())
-    assert missing.level == PROBLEM and missing.cure == "scripts/setup"
+
+
+@pytest.mark.parametrize(("lacks", "is_installed", "level", "words"), [
+    ("numpy", False, PROBLEM, "the module numpy, for the front end, is missing"),
+    ("mcap", False, WARNING, "the module mcap, for `deixis export`, is missing"),
+    ("mcap", True, WARNING, "the module mcap, for `deixis export`, is missing"),
+    ("pytest", False, WARNING, "the module pytest, for tests and figures, is missing"),
+    ("pytest", True, OK, "lists for: `deixis export`, the front end")])
+def test_who_needs_a_module_that_is_missing_is_told(lacks: str, is_installed: bool, level: str,
+                                                    words: str,
+                                                    monkeypatch: pytest.MonkeyPatch) -> None:
+    requirements = installation._requirements()
+
+    def version(name: str) -> str:
+        if name == lacks:
+            raise importlib.metadata.PackageNotFoundError
+        return requirements[name]
+
+    monkeypatch.setattr(importlib.metadata, "version", version)
+    where = layout.find()
+    [finding] = installation.python(replace(where, repository=None) if is_installed else where)
+    assert finding.level == level and words in finding.text
+    assert (level == OK) or finding.cure.endswith(f"{lacks}=={requirements[lacks]}" if is_installed
+                                                  else "scripts/setup")
 
 
 def test_a_missing_recorder_is_a_problem(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -304,7 +340,7 @@ def test_messages_that_a_service_refuses_are_told(before: int, after: int, level
                     status("tracker", ("CAMERA",), wrong=after))
     [finding] = services.types(traffic, COMMANDS)
     assert finding.level == level and f"tracker has refused {after} messages" in finding.text
-    assert finding.cure == f"deixis echo CAMERA --count 5 -l '{URL}'"
+    assert finding.cure == f"{LAUNCHER} echo CAMERA --count 5 -l '{URL}'"
 
 
 def test_messages_that_a_service_misses_are_told() -> None:
@@ -317,8 +353,8 @@ def test_messages_that_a_service_misses_are_told() -> None:
 
 def test_a_service_from_before_the_buffer_was_raised_is_told() -> None:
     traffic = heard(status("tracker", receive_buffer_bytes=212_992))
-    [finding] = services.loss(traffic, 4_194_304, CommandLines(URL, Path("my system.yaml")))
-    assert finding.cure == "deixis restart tracker --system 'my system.yaml'"
+    [finding] = services.loss(traffic, 4_194_304, CommandLines(LAUNCHER, URL, Path("my system.yaml")))
+    assert finding.cure == f"{LAUNCHER} restart tracker --system 'my system.yaml'"
 
 
 def test_a_service_of_another_version_is_a_problem() -> None:

@@ -56,10 +56,9 @@ def _installation(arguments: argparse.Namespace, layout: Layout) -> Installation
     url = lcm_url.choose(arguments.lcm_url)
     if url.provider not in ("udpm", "tcpq"):
         raise UserError(f"LCM URL '{url}' leads to no other process: name a bus with -l")
-    launcher = layout.repository / "scripts" if layout.repository else layout.programs
     name = "deixis" if system.name == "deixis" else f"deixis-{system.name}"
     return Installation(
-        system=system, names=tuple(arguments.names), launcher=launcher / "deixis", url=url,
+        system=system, names=tuple(arguments.names), launcher=layout.launcher, url=url,
         environment=_environment(layout),
         environment_file=_environment_folder(arguments.user) / f"{name}.env",
         run_as=None if arguments.user else _user(arguments.run_as))

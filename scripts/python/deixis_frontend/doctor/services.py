@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
-from deixis_frontend import __version__
+from deixis_frontend import __version__, lcm_url
 from deixis_frontend.doctor.command_lines import CommandLines
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding
-from deixis_frontend.lcm_url import LcmUrl
 from deixis_frontend.listening.publisher_names import PublisherNames
 from deixis_frontend.listening.traffic import Traffic
 from deixis_frontend.printable import printable
@@ -15,15 +15,15 @@ from deixis_frontend.supervision.control_client import Client
 from deixis_frontend.supervision.system_file import System
 
 
-def supervisor(client: Client, system: System, url: LcmUrl) -> list[Finding]:
+def supervisor(client: Client, system: System, commands: CommandLines) -> list[Finding]:
     """Whether the system runs, and on the bus that we look at."""
     if not client.is_supervised():
         return [Finding(OK, "system", f"'{system.name}' does not run")]
     running = client.command("status", [])["status"]["lcm_url"]
-    if running == str(url):
-        return [Finding(OK, "system", f"'{system.name}' runs on {url}")]
-    return [Finding(WARNING, "system", f"'{system.name}' runs on {running}, we look at {url}",
-                    f"deixis doctor -l '{running}'")]
+    if running == str(commands.url):
+        return [Finding(OK, "system", f"'{system.name}' runs on {running}")]
+    return [Finding(WARNING, "system", f"'{system.name}' runs on {running}, we look at"
+                    f" {commands.url}", replace(commands, url=lcm_url.parse(running)).on_bus("doctor"))]
 
 
 def publishers(traffic: Traffic, names: PublisherNames,
