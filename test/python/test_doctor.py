@@ -224,9 +224,14 @@ def test_the_fence_is_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     assert asked_of_root.level == WARNING and asked_of_root.cure == f"sudo {LAUNCHER} doctor -l '{URL}'"
 
 
-def test_interfaces_that_are_up_are_found() -> None:
-    names = {name for _, name in socket.if_nameindex()}
-    assert set(network._interfaces_to_others()) <= names - {"lo"}
+def test_interfaces_that_are_up_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
+        lo = network._flags(asked, "lo")
+        assert lo & network._IFF_LOOPBACK and network._flags(asked, "none-such") == 0
+    flags = {"lo": lo | network._IFF_UP, "eth0": network._IFF_UP, "eth1": 0}
+    monkeypatch.setattr(socket, "if_nameindex", lambda: list(enumerate(flags)))
+    monkeypatch.setattr(network, "_flags", lambda _, name: flags[name])
+    assert network._interfaces_to_others() == ["eth0"]
 
 
 def test_cameras_that_are_there_missing_and_in_use(tmp_path: Path) -> None:

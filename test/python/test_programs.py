@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from bench import becomes_true, is_alive
+from bench import becomes_true, is_alive, killed_after
 
 from deixis_frontend import layout as layouts
 from deixis_frontend.errors import UserError
@@ -74,7 +74,8 @@ def test_a_program_ends_with_the_front_end(layout: Layout) -> None:
                           env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
                           stdout=subprocess.PIPE) as front_end:
         assert front_end.stdout is not None
-        pid = int(front_end.stdout.readline())
+        with killed_after(30.0, front_end):
+            pid = int(front_end.stdout.readline())
         front_end.kill()
     assert becomes_true(lambda: not is_alive(pid))
 
