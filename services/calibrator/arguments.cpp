@@ -99,9 +99,9 @@ void AddOutput(CLI::App& app, Arguments& arguments, Texts& texts) {
   app.add_option("--save", arguments.save, "Folder for pictures: corners, coverage, residuals");
   app.add_option("--time", arguments.time,
                  "Text for calibration_time (left out without: same input, same bytes)");
-  app.add_flag("--replace", texts.may_replace, "Replace files that are there");
-  app.add_flag("--force", arguments.permissions.may_write_poor,
-               "Write what would be refused, too, and mark it; replaces files");
+  app.add_flag("--force", texts.may_replace, "Replace files that are there");
+  app.add_flag("--accept-poor", arguments.permissions.may_write_poor,
+               "Write what would be refused, too, and mark it");
 }
 
 CLI::App* AddCamera(CLI::App& app, Arguments& arguments, Texts& texts) {
@@ -144,7 +144,7 @@ CLI::App* AddPrint(CLI::App& app, Arguments& arguments, Texts& texts) {
   CLI::App* print = app.add_subcommand("board", "Writes a board to print, in its true size");
   AddBoard(*print, arguments, texts);
   print->add_option("--print", arguments.output, "File to write: .pdf or .png")->required();
-  print->add_flag("--replace,--force", texts.may_replace, "Replace a file that is there");
+  print->add_flag("--force", texts.may_replace, "Replace a file that is there");
   return print;
 }
 
@@ -199,8 +199,7 @@ void ReadModel(const Texts& texts, CalibrationOptions& options) {
 
 void ReadTexts(const Texts& texts, Arguments& arguments) {
   ReadBoard(texts, arguments);
-  const bool may_replace = texts.may_replace || arguments.permissions.may_write_poor;
-  arguments.permissions.existing = may_replace ? Existing::kReplace : Existing::kKeep;
+  arguments.permissions.existing = texts.may_replace ? Existing::kReplace : Existing::kKeep;
   if (arguments.task == Task::kPrintBoard) {
     const auto ending = arguments.output.extension();
     if (ending == ".pdf" || ending == ".png") return;

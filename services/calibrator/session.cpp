@@ -93,7 +93,7 @@ int Conclude(const Arguments& arguments, const std::vector<std::string>& faults,
   for (const std::string& fault : faults) out << "fault: " << fault << "\n";
   if (!faults.empty() && !arguments.permissions.may_write_poor) {
     out << "not written: " << faults.size() << " fault" << (faults.size() == 1 ? "" : "s")
-        << "; --force writes it all the same" << std::endl;
+        << "; --accept-poor writes it all the same" << std::endl;
     return program::kCannotWork;
   }
   Notes notes{arguments.time, ""};
