@@ -4,6 +4,7 @@
 
 #include "common/config/config.h"
 #include "common/program/command_line.h"
+#include "common/transport/url.h"
 #include "services/calibrator/collection.h"
 #include "services/calibrator/core/board_print.h"
 #include "services/calibrator/feeds/bus_feed.h"
@@ -49,7 +50,8 @@ std::unique_ptr<Feed> SourceFeedOf(const FeedArguments& feed) {
 std::unique_ptr<Feed> BusFeedOf(const FeedArguments& feed, Task task) {
   transport::BusOptions options;
   options.url = feed.lcm_url;
-  options.deliver_every_message = feed.lcm_url.rfind("file://", 0) == 0;
+  const transport::Url url = transport::ResolveUrl(feed.lcm_url, options.receive_buffer_bytes);
+  options.deliver_every_message = url.provider == "file";
   return std::make_unique<BusFeed>(std::make_unique<transport::Bus>(options), feed.channel,
                                    task == Task::kStereo ? 2 : 1);
 }

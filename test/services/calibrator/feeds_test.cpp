@@ -128,6 +128,24 @@ TEST_F(CalibratorFeeds, TheNewestPictureOfTheBusIsTaken) {
   EXPECT_EQ(feed.Next().state, capture::SourceState::kWaiting);
 }
 
+TEST_F(CalibratorFeeds, EveryPictureOfALogIsTakenHoweverManyAreDueAtOnce) {
+  transport::BusOptions options = deixis::test::Memory();
+  options.deliver_every_message = true;
+  auto bus = std::make_unique<transport::Bus>(options);
+  transport::Bus& publisher = *bus;
+  BusFeed feed(std::move(bus), "CAMERA", 1);
+  for (int i = 1; i <= 3; ++i) {
+    publisher.Publish("CAMERA", images::Image{{i}, "camera", Picture(10 * i)});
+  }
+  for (int i = 1; i <= 3; ++i) {
+    const auto sight = feed.Next().sight;
+    ASSERT_TRUE(sight) << i;
+    EXPECT_EQ(sight->time.microseconds, i);
+    EXPECT_EQ(sight->bgr[0].at<cv::Vec3b>(0, 0)[0], 10 * i);
+  }
+  EXPECT_EQ(feed.Next().state, capture::SourceState::kWaiting);
+}
+
 TEST_F(CalibratorFeeds, PairsOfTheBusAreTaken) {
   auto bus = std::make_unique<transport::Bus>(deixis::test::Memory());
   transport::Bus& publisher = *bus;
