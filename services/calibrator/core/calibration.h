@@ -10,8 +10,13 @@ namespace deixis::calibrator {
 
 enum class ModelChoice {
   kAsGiven,
-  kByCrossValidation  ///< The simplest one whose error on views left out is within 2 % of the best.
+  kByCrossValidation  ///< The simplest one whose error on views left out is within 2 % of the best;
+                      ///< of a stereo pair by its left camera, and no fisheye.
 };
+
+/// Which of some models, the simplest first, is the first whose error is within 2 % of the least;
+/// nothing = it could not be fitted. 0 when none could.
+std::size_t FirstGoodEnough(const std::vector<std::optional<double>>& errors_px);
 
 struct CalibrationOptions {
   LensOptions lens;
@@ -49,7 +54,8 @@ struct StereoCalibration {
   double median_square = 1.0;                    ///< Measured over true; 1 = the scale is right.
 };
 
-/// Throws FitFailed.
+/// For pinhole lenses: rectifying makes pinhole pictures, and the stereo driver reads no other
+/// ones. Throws FitFailed; std::invalid_argument when `options` ask for a fisheye.
 StereoCalibration CalibrateStereo(const std::vector<Shot>& shots, const BoardLayout& layout,
                                   const CalibrationOptions& options);
 

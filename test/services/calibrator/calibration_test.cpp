@@ -124,6 +124,49 @@ TEST(CameraCalibration, TheSimplestModelThatServesIsChosen) {
   EXPECT_LT(*result.cross_validated_px, 0.2);
 }
 
+TEST(CameraCalibration, OfTwoModelsWithin2PercentOfTheBestTheSimplerIsChosen) {
+  EXPECT_EQ(FirstGoodEnough({1.0, 0.985, 0.975}), 1u);
+  EXPECT_EQ(FirstGoodEnough({1.0, 0.99, 0.985}), 0u);
+  EXPECT_EQ(FirstGoodEnough({1.0, 0.99, 0.5}), 2u);
+}
+
+TEST(CameraCalibration, AModelThatCouldNotBeFittedIsNotChosen) {
+  EXPECT_EQ(FirstGoodEnough({std::nullopt, 2.0, 1.0}), 2u);
+  EXPECT_EQ(FirstGoodEnough({std::nullopt, 1.0, std::nullopt}), 1u);
+  EXPECT_EQ(FirstGoodEnough({std::nullopt, std::nullopt, std::nullopt}), 0u);
+}
+
+TEST(CameraCalibration, AFisheyeIsChosenForOneCameraButNeverForAPair) {
+  Rig rig;
+  Lens fisheye = WideLens();
+  fisheye.model = LensModel::kFisheye;
+  fisheye.matrix(0, 0) = fisheye.matrix(1, 1) = 200.0;
+  fisheye.distortion = {-0.1, 0.03, -0.02, 0.01};
+  cv::RNG random(11);
+  for (const BoardPose& pose : Poses(rig.board.layout.size_m, 0.12, 7)) {
+    const auto left = ProjectedCorners(fisheye, rig.board.layout, pose, 0.02, random);
+    const auto right = ProjectedCorners(fisheye, rig.board.layout,
+                                        SeenFromRight(pose, kBaseline_m, kTurn), 0.02, random);
+    rig.selection.Offer("pair", {}, {ViewOf(left), ViewOf(right)});
+  }
+  CalibrationOptions options;
+  options.choice = ModelChoice::kByCrossValidation;
+  const auto& shots = rig.selection.shots();
+  EXPECT_EQ(CalibrateCamera(shots, 0, rig.board.layout, options).options.model,
+            LensModel::kFisheye);
+  EXPECT_NE(CalibrateStereo(shots, rig.board.layout, options).left.options.model,
+            LensModel::kFisheye);
+}
+
+TEST(StereoCalibration, TakesNoFisheye) {
+  Rig rig;
+  Show(rig, 8);
+  CalibrationOptions options;
+  options.lens.model = LensModel::kFisheye;
+  EXPECT_THROW(CalibrateStereo(rig.selection.shots(), rig.board.layout, options),
+               std::invalid_argument);
+}
+
 TEST(CameraCalibration, ABoardThatWasNeverTiltedIsNotEnough) {
   const Board board = MakeBoard({});
   ViewSelection selection({}, 1);
