@@ -4,6 +4,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "services/calibrator/core/median.h"
+
 namespace deixis::calibrator {
 namespace {
 
@@ -22,12 +24,6 @@ using Models = std::vector<LensModel>;
 // The simplest first.
 const Models kPinholeModels{LensModel::kPlumbBob, LensModel::kRational};
 const Models kAllModels{LensModel::kPlumbBob, LensModel::kRational, LensModel::kFisheye};
-
-std::vector<Corners> CornersOf(const std::vector<Shot>& shots, std::size_t camera) {
-  std::vector<Corners> views;
-  for (const Shot& shot : shots) views.push_back(shot.views.at(camera).corners);
-  return views;
-}
 
 cv::Size SizeOf(const std::vector<Shot>& shots, std::size_t camera) {
   if (shots.empty()) throw FitFailed("no view of the board: show it");
@@ -107,24 +103,38 @@ class PairFitter {
     return fit;
   }
 
+  /// The worst pair of `used`, when it is an outlier; none when the others determine no fit.
   std::optional<DroppedView> FindOutlier(const StereoFit& fit, const Indices& used) const {
-    std::vector<double> errors;
-    for (const std::size_t index : used) errors.push_back(MedianRows_px(fit, pairs_[index]));
+    const std::vector<double> errors = Errors_px(fit, used);
     const auto worst = std::max_element(errors.begin(), errors.end());
     if (*worst < std::max(kHarmless_px, kSuspicious * Median(errors))) return std::nullopt;
     const auto position = worst - errors.begin();
-    const std::size_t index = used[static_cast<std::size_t>(position)];
     Indices rest = used;
     rest.erase(rest.begin() + position);
-    const StereoFit without = Fit(rest);
-    std::vector<double> others;
-    for (const std::size_t other : rest) others.push_back(MedianRows_px(without, pairs_[other]));
-    const double error_px = MedianRows_px(without, pairs_[index]);
-    if (error_px < std::max(kHarmless_px, kOutlying * Median(others))) return std::nullopt;
-    return DroppedView{index, error_px, Median(others)};
+    const auto without = FitIfPossible(rest);
+    if (!without) return std::nullopt;
+    const std::size_t index = used[static_cast<std::size_t>(position)];
+    const double error_px = MedianRows_px(*without, pairs_[index]);
+    const double others_px = Median(Errors_px(*without, rest));
+    if (error_px < std::max(kHarmless_px, kOutlying * others_px)) return std::nullopt;
+    return DroppedView{index, error_px, others_px};
   }
 
  private:
+  std::optional<StereoFit> FitIfPossible(const Indices& indices) const {
+    try {
+      return Fit(indices);
+    } catch (const FitFailed&) {
+      return std::nullopt;
+    }
+  }
+
+  std::vector<double> Errors_px(const StereoFit& fit, const Indices& indices) const {
+    std::vector<double> errors;
+    for (const std::size_t index : indices) errors.push_back(MedianRows_px(fit, pairs_[index]));
+    return errors;
+  }
+
   const std::vector<CornerPair>& pairs_;
   const BoardLayout& layout_;
   const StereoCalibration& calibration_;
@@ -205,6 +215,12 @@ std::vector<Shot> At(const std::vector<Shot>& shots, const Indices& indices) {
 }
 
 }  // namespace
+
+std::vector<Corners> CornersOf(const std::vector<Shot>& shots, std::size_t camera) {
+  std::vector<Corners> views;
+  for (const Shot& shot : shots) views.push_back(shot.views.at(camera).corners);
+  return views;
+}
 
 std::size_t FirstGoodEnough(const std::vector<std::optional<double>>& errors_px) {
   std::optional<double> least_px;

@@ -32,6 +32,9 @@ struct CameraCalibration {
   std::optional<double> cross_validated_px;  ///< Error on views that had no part in the fit.
 };
 
+/// What `camera` (0 = the only one, or the left one) saw in all `shots`.
+std::vector<Corners> CornersOf(const std::vector<Shot>& shots, std::size_t camera);
+
 /// `shots` by their `camera`. Throws FitFailed.
 CameraCalibration CalibrateCamera(const std::vector<Shot>& shots, std::size_t camera,
                                   const BoardLayout& layout, const CalibrationOptions& options);
