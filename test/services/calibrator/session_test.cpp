@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 using deixis::test::FileContent;
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -138,6 +139,27 @@ TEST_F(CalibratorSession, FindsWhereTheCamerasStand) {
   EXPECT_NEAR(capture::ReadLensFile(Path("stereo/intrinsics.yml")).calibration.focal_px.x(),
               WideLens().matrix(0, 0), 3.0);
   EXPECT_FALSE(cv::imread(Path("pictures/rectified.png")).empty());
+}
+
+TEST_F(CalibratorSession, TheErrorSoFarIsThatOfBothCameras) {
+  Write("left", {Chessboard().left.begin(), Chessboard().left.begin() + 4});
+  Write("right", {Chessboard().right.begin(), Chessboard().right.begin() + 4});
+  Refusal(StereoArguments());
+  EXPECT_THAT(said_, ContainsRegex("view  4 .*  error 0\\.[0-9]+, 0\\.[0-9]+ px"));
+}
+
+TEST_F(CalibratorSession, TheErrorSoFarIsThatOfTheLensThatIsAskedFor) {
+  std::vector<cv::Mat> tall;
+  for (int i = 0; i < 4; ++i) {
+    cv::resize(Chessboard().left[static_cast<std::size_t>(i)], tall.emplace_back(), {640, 576});
+  }
+  Write("left", tall);
+  Arguments arguments = CameraArguments();
+  Refusal(arguments);
+  EXPECT_THAT(said_, ContainsRegex("  error 0\\.[01]"));
+  arguments.calibration.lens.has_fixed_aspect = true;  // A fifth off.
+  Refusal(arguments);
+  EXPECT_THAT(said_, ContainsRegex("  error 0\\.[5-9]"));
 }
 
 TEST_F(CalibratorSession, SwappedCamerasAreNotWritten) {
