@@ -112,6 +112,7 @@ program::StepResult StereoDriverService::Step() {
   const StereoStep step = driver_.Next(clock_.Now());
   if (step.output) Publish(*step.output);
   LogNews();
+  LogRegistration();
   if (step.state == capture::SourceState::kFinished) LogSummary();
   return program::ResultOf(step.state);
 }
@@ -154,11 +155,19 @@ void StereoDriverService::LogNews() {
   logged_trouble_ = trouble;
 }
 
+void StereoDriverService::LogRegistration() {
+  const std::string& fault = driver_.registration_fault();
+  const bool is_new = fault != logged_registration_fault_;
+  if (is_new && !fault.empty()) logging::Warn("registration", {{"fault", fault}});
+  logged_registration_fault_ = fault;
+}
+
 transport::Health StereoDriverService::health() const {
   const FrameSourceStatus status = driver_.status();
   transport::Health health;
-  health.is_degraded = !status.pictures.trouble.empty();
+  health.is_degraded = !status.pictures.trouble.empty() || !driver_.registration_fault().empty();
   Append(status.pictures.trouble, health.text);
+  Append(driver_.registration_fault(), health.text);
   Append(driver_.calibration_remark(), health.text);
   AppendCount(status.pictures.corrupt, "corrupt pictures", health.text);
   AppendCount(status.pictures.skipped, "skipped pictures", health.text);

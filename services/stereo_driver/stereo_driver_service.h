@@ -63,6 +63,7 @@ class StereoDriverService {
   void Listen(transport::Bus& input);
   void Publish(const StereoOutput& output);
   void LogNews();
+  void LogRegistration();
   void LogSummary() const;
 
   StereoDriverServiceConfig config_;
@@ -71,6 +72,7 @@ class StereoDriverService {
   StereoDriver driver_;
   std::int64_t published_ = 0;  ///< Frames.
   std::string logged_remark_;
+  std::string logged_registration_fault_;
   std::string logged_trouble_;
 };
 
