@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <array>
+#include <deixis/stereo_calibration_t.hpp>
 #include <utility>
 
 #include "common/messages/dimos_parts.h"
@@ -55,6 +56,13 @@ bool HasAllCoefficients(const CameraCalibration& calibration) {
       return n == 4;
   }
   return false;
+}
+
+CameraCalibration ToPublishedCamera(const stereo_calibration_t& message) {
+  CameraCalibration calibration = ToCameraCalibration(message.rectified);
+  calibration.time = ToTimestamp(message.utime);
+  calibration.camera = Text(message.camera);
+  return calibration;
 }
 
 void FromMount(const CameraCalibration& calibration, camera_calibration_t& message) {
@@ -121,7 +129,12 @@ camera_calibration_t FromCameraCalibration(const CameraCalibration& calibration,
 }
 
 Decoded<CameraCalibration> Codec<CameraCalibration>::Decode(Bytes bytes) {
-  if (Fingerprint(bytes) == sensor_msgs::CameraInfo::getHash()) {
+  const std::int64_t fingerprint = Fingerprint(bytes);
+  if (fingerprint == stereo_calibration_t::getHash()) {
+    const auto message = DecodeWire<stereo_calibration_t>(bytes);
+    return {ToPublishedCamera(message), Count(message.sequence)};
+  }
+  if (fingerprint == sensor_msgs::CameraInfo::getHash()) {
     return {ToCameraCalibration(DecodeWire<sensor_msgs::CameraInfo>(bytes)), -1};
   }
   const auto message = DecodeWire<camera_calibration_t>(bytes);

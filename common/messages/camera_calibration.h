@@ -7,9 +7,10 @@
 
 namespace deixis::messages {
 
-/// deixis.camera_calibration_t, or sensor_msgs.CameraInfo of dimos robots, told apart by
-/// fingerprint (that has no sequence number; the camera's name is that of its frame). It is
-/// published as the former.
+/// What is known of a picture's lens: deixis.camera_calibration_t; of deixis.stereo_calibration_t
+/// the rectified camera, whose picture is the published LEFT; or sensor_msgs.CameraInfo of dimos
+/// robots (without a sequence number; the camera's name is that of its frame). They are told apart
+/// by fingerprint. It is published as the first.
 template <>
 struct Codec<geometry::CameraCalibration> {
   static Decoded<geometry::CameraCalibration> Decode(Bytes bytes);

@@ -41,7 +41,9 @@ def test_measures_a_pair(tmp_path: Path) -> None:
     assert (ours["name"], ours["column"], opencv["column"]) == ("motorcycle", "deixis", "opencv")
     assert ours["error_median_px"] == pytest.approx(_DISPARITY_PX - 255 / 256, abs=0.1)
     assert ours["bad2px_percent"] > 99
+    assert ours["bad2px_shared_percent"] > 99
     assert ours["valid_percent"] > 90
+    assert ours["lost_percent"] > 99
 
 
 def test_says_when_there_is_nothing_to_measure(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ from typing import Any
 import lcm
 import pytest
 from bench import becomes_true
+from rig_files import HEIGHT, WIDTH, write_rig
 
 _SECONDS = float(os.environ.get("DEIXIS_FLOOD_SECONDS") or 3) / 3  # for each kind of message
 _MOST_GROWTH_MB = 250
@@ -37,7 +38,18 @@ TARGETS = {
                                   ("HAND_TRACKS", "hands")), "HAND_TRACKS", "GESTURE_STATE"),
     "viewer": Target((("HAND_TRACKS", "garbage"), ("HAND_TRACKS", "hands"),
                       ("CAMERA", "picture")), "HAND_TRACKS", "SERVICE_STATUS"),
+    "stereo_driver": Target((("STEREO_PAIR", "garbage"), ("STEREO_PAIR", "pair")),
+                            "STEREO_PAIR", "STEREO"),
 }
+
+
+def settings_of(service: str, folder: Path) -> list[str]:
+    """What a service needs to be told so that it writes nowhere else, and listens."""
+    if service == "viewer":
+        return [f"save_folder={folder}"]
+    if service == "stereo_driver":
+        return [*write_rig(folder), "source.kind=pair_channel"]
+    return []
 
 
 class Victim:
@@ -47,7 +59,7 @@ class Victim:
         self.name, self._url, self._build = name, url, build
         self._log = folder / "log"
         program = build / "bin" / f"deixis-{name.replace('_', '-')}"
-        settings = ["--set", f"save_folder={folder}"] if name == "viewer" else []
+        settings = [word for setting in settings_of(name, folder) for word in ("--set", setting)]
         with self._log.open("w", encoding="utf-8") as log:
             self.process = subprocess.Popen([program, "-l", url, *settings], stderr=log)
         self._bus = lcm.LCM(url + "&recv_buf_size=4194304")
@@ -165,12 +177,15 @@ def describe(status: Any) -> str:
 
 def seconds_to_answer(victim: Victim, target: Target) -> float:
     """How long the service takes to work again; what it is asked may wait behind the flood."""
+    import bot_core
     import deixis
     types = {"OBJECTS": deixis.objects_t, "HAND_TRACKS": deixis.hand_tracks_t,
-             "GESTURE_STATE": deixis.gesture_state_t, "SERVICE_STATUS": deixis.service_status_t}
+             "GESTURE_STATE": deixis.gesture_state_t, "SERVICE_STATUS": deixis.service_status_t,
+             "STEREO": bot_core.images_t}
+    questions = {"CAMERA": picture, "HAND_TRACKS": no_hands, "STEREO_PAIR": pair}
     victim.expect_answers(target.answer, types[target.answer].decode)
     began = time.monotonic()
-    question = picture(5) if target.ask == "CAMERA" else no_hands(5)
+    question = questions[target.ask](5)
 
     def is_answered() -> bool:
         victim.publish(target.ask, question)
@@ -183,12 +198,26 @@ def seconds_to_answer(victim: Victim, target: Target) -> float:
 
 def picture(time_us: int) -> bytes:
     """A small grey one."""
+    return bytes(grey_image(time_us, 64, 48).encode())
+
+
+def pair(time_us: int) -> bytes:
+    """Two grey pictures of the rig's size."""
+    from bot_core import images_t
+    message = images_t()
+    message.utime, message.n_images = time_us, 2
+    message.image_types = [images_t.LEFT, images_t.RIGHT]
+    message.images = [grey_image(time_us, WIDTH, HEIGHT)] * 2
+    return bytes(message.encode())
+
+
+def grey_image(time_us: int, width: int, height: int) -> Any:
     from bot_core import image_t
     message = image_t()
-    message.utime, message.width, message.height, message.row_stride = time_us, 64, 48, 64
-    message.pixelformat, message.data = image_t.PIXEL_FORMAT_GRAY, bytes(64 * 48)
+    message.utime, message.width, message.height, message.row_stride = time_us, width, height, width
+    message.pixelformat, message.data = image_t.PIXEL_FORMAT_GRAY, bytes(width * height)
     message.size = len(message.data)
-    return bytes(message.encode())
+    return message
 
 
 def no_hands(time_us: int) -> bytes:

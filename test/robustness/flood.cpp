@@ -11,6 +11,7 @@
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
 #include "common/messages/objects.h"
+#include "common/messages/stereo_pair.h"
 #include "common/transport/bus.h"
 
 namespace {
@@ -57,9 +58,17 @@ void SendPicture(transport::Bus& bus, const std::string& channel, std::int64_t t
   bus.Publish(channel, picture);
 }
 
+void SendPair(transport::Bus& bus, const std::string& channel, std::int64_t time_us) {
+  static const images::EncodedImage picture = LargePicture();
+  static images::EncodedStereoPair pair{picture, picture};
+  pair.left.time = pair.right.time = {time_us};
+  bus.Publish(channel, pair);
+}
+
 const std::map<std::string, Send> kKinds{{"garbage", SendGarbage},
                                          {"hands", SendHands},
                                          {"objects", SendObjects},
+                                         {"pair", SendPair},
                                          {"picture", SendPicture}};
 
 std::int64_t Flood(transport::Bus& bus, const std::string& channel, Send send, double seconds,
@@ -84,7 +93,7 @@ std::int64_t Flood(transport::Bus& bus, const std::string& channel, Send send, d
 int main(int argc, char** argv) {
   const auto kind = argc > 3 ? kKinds.find(argv[3]) : kKinds.end();
   if (argc < 5 || argc > 6 || kind == kKinds.end()) {
-    std::cerr << "flood URL CHANNEL garbage|hands|objects|picture SECONDS [MOST_PER_S]\n";
+    std::cerr << "flood URL CHANNEL garbage|hands|objects|pair|picture SECONDS [MOST_PER_S]\n";
     return 2;
   }
   try {

@@ -9,7 +9,7 @@ namespace deixis::stereo_driver {
 namespace {
 
 constexpr int kSearchStep = 16;  // OpenCV takes multiples of this.
-constexpr int kDefaultSgbmBlock_px = 7;
+constexpr int kDefaultSgbmBlock_px = 5;
 constexpr int kDefaultBmBlock_px = 15;
 
 /// OpenCV's StereoSGBM takes -1 for 1: only a difference that cannot be turns its check off.

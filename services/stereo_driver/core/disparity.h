@@ -22,16 +22,16 @@ inline auto EnumNames(Method) {
 struct DisparityConfig {
   Method method = Method::kSgbm3way;
   int num_disparities = 0;   ///< Searched pixels, a multiple of 16; 0 = from the nearest distance.
-  int block_px = 0;          ///< Side of the compared blocks, odd; 0 = 7 (sgbm_3way), 15 (bm).
+  int block_px = 0;          ///< Side of the compared blocks, odd; 0 = 5 (sgbm_3way), 15 (bm).
   int smoothness_small = 8;  ///< sgbm_3way: price of a step of 1 px, per pixel of a block (P1).
   int smoothness_large =
       32;  ///< sgbm_3way: price of any larger step (P2); more than the small one.
-  int uniqueness_percent = 5;  ///< By how much the best match must beat the next.
-  int texture_threshold = 10;  ///< bm: blocks with less texture are left out.
-  int prefilter_cap = 31;      ///< Largest horizontal gradient that counts, 1..63.
-  int left_right_px = 1;       ///< Largest difference of left-to-right and right-to-left; -1 = any.
-  int speckle_area_px = 100;   ///< Smaller islands are taken out; 0 = none are.
-  int speckle_range_px = 2;    ///< Larger steps end an island.
+  int uniqueness_percent = 10;  ///< By how much the best match must beat the next.
+  int texture_threshold = 10;   ///< bm: blocks with less texture are left out.
+  int prefilter_cap = 31;       ///< Largest horizontal gradient that counts, 1..63.
+  int left_right_px = 1;      ///< Largest difference of left-to-right and right-to-left; -1 = any.
+  int speckle_area_px = 100;  ///< Smaller islands are taken out; 0 = none are.
+  int speckle_range_px = 2;   ///< Larger steps end an island.
 
   template <typename Visitor>
   void Visit(Visitor& v) {

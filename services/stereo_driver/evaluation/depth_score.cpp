@@ -68,6 +68,11 @@ void DepthScore::AddPixel(double true_px, std::optional<double> measured_px) {
   if (error_px > kBad_px) ++bad;
 }
 
+void DepthScore::AddShared(double true_px, double measured_px) {
+  ++shared;
+  if (std::abs(measured_px - true_px) > kBad_px) ++bad_shared;
+}
+
 void DepthScore::AddPixel(double focal_baseline, double true_m, std::optional<double> measured_m) {
   if (!measured_m) return AddPixel(focal_baseline / true_m, std::nullopt);
   AddPixel(focal_baseline / true_m, focal_baseline / *measured_m);
@@ -81,6 +86,8 @@ void DepthScore::Add(const DepthScore& other) {
   truth += other.truth;
   valid += other.valid;
   bad += other.bad;
+  shared += other.shared;
+  bad_shared += other.bad_shared;
   errors_px.Add(other.errors_px);
   errors_m.Add(other.errors_m);
   for (std::size_t i = 0; i < band_errors_m.size(); ++i) {
@@ -92,7 +99,7 @@ void DepthScore::Add(const DepthScore& other) {
 std::string CsvHeading() {
   std::ostringstream line;
   line << "sequence,column,frames,pixels,valid_percent,error_median_m,error_p90_m,bad2px_percent,"
-          "error_median_px,error_p90_px,ms_median";
+          "lost_percent,bad2px_shared_percent,error_median_px,error_p90_px,ms_median";
   double from_m = 0.0;
   for (const double to_m : DepthScore::kBandEdges_m) {
     line << ",error_median_m_" << from_m << "_to_" << to_m;
@@ -108,8 +115,9 @@ std::string CsvLine(const std::string& sequence, const std::string& column,
   line << sequence << ',' << column << ',' << score.times_ms.size() << ',' << score.truth << ','
        << Percent(score.valid, score.truth) << ',' << Text(score.errors_m.Quantile(0.5)) << ','
        << Text(score.errors_m.Quantile(0.9)) << ',' << Percent(score.bad, score.valid) << ','
-       << Text(score.errors_px.Quantile(0.5)) << ',' << Text(score.errors_px.Quantile(0.9)) << ','
-       << Median(score.times_ms);
+       << Percent(score.truth - score.valid + score.bad, score.truth) << ','
+       << Percent(score.bad_shared, score.shared) << ',' << Text(score.errors_px.Quantile(0.5))
+       << ',' << Text(score.errors_px.Quantile(0.9)) << ',' << Median(score.times_ms);
   for (const ErrorHistogram& band : score.band_errors_m) {
     line << ',' << Text(band.Quantile(0.5));
   }

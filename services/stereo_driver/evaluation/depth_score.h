@@ -32,12 +32,17 @@ struct DepthScore {
   void AddPixel(double true_px, std::optional<double> measured_px);
   /// The same with distances, which are f b / d.
   void AddPixel(double focal_baseline, double true_m, std::optional<double> measured_m);
+  /// The same pixel once more when the compared way has measured it too: errors of all that a way
+  /// dares to say cannot be compared, since the pixels that only one dares are the hard ones.
+  void AddShared(double true_px, double measured_px);
   void AddTime(double ms) { times_ms.push_back(ms); }
   void Add(const DepthScore& other);
 
-  std::int64_t truth = 0;  ///< Pixels whose truth is known.
-  std::int64_t valid = 0;  ///< Of these: measured.
-  std::int64_t bad = 0;    ///< Of these: wrong by more than kBad_px.
+  std::int64_t truth = 0;       ///< Pixels whose truth is known.
+  std::int64_t valid = 0;       ///< Of these: measured.
+  std::int64_t bad = 0;         ///< Of these: wrong by more than kBad_px.
+  std::int64_t shared = 0;      ///< Pixels that the compared way has measured too; 0 = not counted.
+  std::int64_t bad_shared = 0;  ///< Of these: wrong by more than kBad_px.
   ErrorHistogram errors_px;
   ErrorHistogram errors_m;
   std::vector<ErrorHistogram> band_errors_m;  ///< By true distance, kBandEdges_m between them.

@@ -51,7 +51,8 @@ DisparityPair ReadPair(const std::string& text) {
   return pair;
 }
 
-void Compare(const DisparityPair& pair, const cv::Mat& disparity, DepthScore& score) {
+void Compare(const DisparityPair& pair, const cv::Mat& disparity, const cv::Mat& compared,
+             DepthScore& score) {
   for (int y = 0; y < disparity.rows; ++y) {
     for (int x = 0; x < disparity.cols; ++x) {
       const float true_px = pair.truth_px.at<float>(y, x);
@@ -59,6 +60,8 @@ void Compare(const DisparityPair& pair, const cv::Mat& disparity, DepthScore& sc
       const int sixteenths = disparity.at<std::int16_t>(y, x);
       const double measured_px = static_cast<double>(sixteenths) / kDisparityScale;
       score.AddPixel(true_px, sixteenths > 0 ? std::optional(measured_px) : std::nullopt);
+      const bool is_shared = sixteenths > 0 && compared.at<std::int16_t>(y, x) > 0;
+      if (is_shared) score.AddShared(true_px, measured_px);
     }
   }
 }

@@ -21,7 +21,9 @@ std::string PairFault(const std::string& text);
 /// Reads what such a text names. Throws ConfigError naming the file that cannot be read.
 DisparityPair ReadPair(const std::string& text);
 
-/// Adds all pixels whose truth is known. `disparity` is CV_16SC1 in 1/16 px, valid when positive.
-void Compare(const DisparityPair& pair, const cv::Mat& disparity, DepthScore& score);
+/// Adds all pixels whose truth is known. Disparities are CV_16SC1 in 1/16 px, valid when positive;
+/// `compared` is another way's, which says what pixels both have measured.
+void Compare(const DisparityPair& pair, const cv::Mat& disparity, const cv::Mat& compared,
+             DepthScore& score);
 
 }  // namespace deixis::stereo_driver

@@ -127,8 +127,8 @@ Scores Evaluate(const DisparityPair& pair, const StereoMatcherConfig& config) {
     plain->compute(is_bm ? pair.left_grey : pair.left_bgr, is_bm ? pair.right_grey : pair.right_bgr,
                    plain_disparity);
   }));
-  Compare(pair, disparity, scores.ours);
-  Compare(pair, plain_disparity, scores.plain);
+  Compare(pair, disparity, plain_disparity, scores.ours);
+  Compare(pair, plain_disparity, disparity, scores.plain);
   return scores;
 }
 

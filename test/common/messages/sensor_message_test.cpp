@@ -246,6 +246,17 @@ TEST(StereoCalibrationMessage, GoesThereAndBack) {
   EXPECT_EQ(decoded.disparity_sigma_px, 0.4);
 }
 
+TEST(StereoCalibrationMessage, SpeaksOfItsPublishedPictureToThoseWhoWantOneLens) {
+  const geometry::StereoCalibration calibration = Calibration();
+  const auto bytes = Codec<geometry::StereoCalibration>::Encode(calibration, 7);
+  const auto [lens, sequence] =
+      Codec<geometry::CameraCalibration>::Decode({bytes.data(), bytes.size()});
+  EXPECT_EQ(sequence, 7);
+  EXPECT_EQ(lens.camera, calibration.camera);
+  EXPECT_EQ(lens.time, calibration.time);
+  EXPECT_EQ(lens.focal_px, calibration.rectified.focal_px);
+}
+
 TEST(HostileStereoCalibration, RotationsThatAreNoneAreRejected) {
   geometry::StereoCalibration calibration = Calibration();
   calibration.right_from_left.rotation.coeffs() *= 1.01;

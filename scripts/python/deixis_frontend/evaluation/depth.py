@@ -28,7 +28,10 @@ _PAIRS = {
 }
 _TOTAL = "all"
 _HEADING = (f"{'recording':<14}{'by':<8}{'frames':>7}{'valid %':>9}{'median mm':>11}{'p90 mm':>8}"
-            f"{'bad>2px %':>11}{'median px':>11}{'ms':>8}")
+            f"{'bad>2px %':>11}{'lost %':>8}{'shared %':>10}{'median px':>11}{'ms':>8}")
+_LEGEND = """\
+valid: share of the pixels with a truth that were measured. bad: of these, wrong by more than 2 px.
+lost: of all with a truth, not measured or bad. shared: bad of what both ways have measured (pairs only)."""
 
 Row = dict[str, Any]
 
@@ -63,6 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
     for row in _measure(_command(arguments, sequences, pairs)):
         _print(row)
         rows.append(row)
+    print(_LEGEND)
     report_options.write_json(arguments, _report(rows, skipped))
     return 0
 
@@ -130,7 +134,8 @@ def _print(row: Row) -> None:
 
     print(f"{row['sequence']:<14}{row['column']:<8}{row['frames']:>7}{number('valid_percent', 9, 2)}"
           f"{number('error_median_m', 11, 1, 1000)}{number('error_p90_m', 8, 1, 1000)}"
-          f"{number('bad2px_percent', 11, 2)}{number('error_median_px', 11, 3)}"
+          f"{number('bad2px_percent', 11, 2)}{number('lost_percent', 8, 2)}"
+          f"{number('bad2px_shared_percent', 10, 2)}{number('error_median_px', 11, 3)}"
           f"{number('ms_median', 8, 1)}", flush=True)
 
 
