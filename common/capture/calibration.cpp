@@ -1,6 +1,7 @@
 #include "common/capture/calibration.h"
 
 #include <cmath>
+#include <utility>
 
 #include "common/capture/opencv_file.h"
 
@@ -44,8 +45,8 @@ void CalibrationConfig::Check(config::Faults& faults) const {
                  "calibration.horizontal_fov_deg", "must lie between 0 and 180");
 }
 
-LensFile ReadLensFile(const std::string& path) {
-  const OpenCvFile file(path, "set calibration.file, or leave it empty to guess");
+LensFile ReadLensFile(const std::string& path, const std::string& cure) {
+  const OpenCvFile file(path, cure);
   LensFile lens{path, ReadLens(file, {})};
   lens.calibration.width_px = file.PixelCount("image_width");
   lens.calibration.height_px = file.PixelCount("image_height");
@@ -80,6 +81,9 @@ CalibrationAnswer AtSize(const LensFile& lens, cv::Size size) {
 Calibration::Calibration(const CalibrationConfig& config) : config_(config) {
   if (!config.file.empty()) lens_ = ReadLensFile(config::FindConfig(config.file).string());
 }
+
+Calibration::Calibration(const CalibrationConfig& config, LensFile lens)
+    : config_(config), lens_(std::move(lens)) {}
 
 bool Calibration::UseOwn(const CameraCalibration& lens) {
   if (lens_ || (own_ && IsSameLens(*own_, lens))) return false;

@@ -32,8 +32,9 @@ struct LensFile {
   geometry::CameraCalibration calibration;  ///< width_px, height_px 0 when the file does not say.
 };
 
-/// Throws ConfigError naming file, key and cure.
-LensFile ReadLensFile(const std::string& path);
+/// Throws ConfigError naming file, key and cure; `cure` is for a file that is not there.
+LensFile ReadLensFile(const std::string& path,
+                      const std::string& cure = "set calibration.file, or leave it empty to guess");
 
 /// What is known of the lens at one image size.
 struct CalibrationAnswer {
@@ -54,6 +55,9 @@ class Calibration {
  public:
   /// Reads the file, if one is named. Throws ConfigError.
   explicit Calibration(const CalibrationConfig& config);
+
+  /// `lens` was read from a file already; goes before what `config` names.
+  Calibration(const CalibrationConfig& config, LensFile lens);
 
   /// Takes the lens as the camera says it of itself. Returns whether answers differ from now on:
   /// not when a file is named, or nothing but its time, name and mount is new.

@@ -102,7 +102,7 @@ void StereoDriverService::Listen(transport::Bus& input) {
 program::StepResult StereoDriverService::Step() {
   const StereoStep step = driver_.Next(clock_.Now());
   if (step.output) Publish(*step.output);
-  log_.Note(driver_.calibration_remark(), driver_.status().pictures.trouble);
+  LogNews();
   if (step.state == capture::SourceState::kFinished) LogSummary();
   return program::ResultOf(step.state);
 }
@@ -144,13 +144,24 @@ void StereoDriverService::LogSummary() const {
                                        {"unusable", status.unusable}});
 }
 
+void StereoDriverService::LogNews() {
+  log_.Note(driver_.calibration_remark(), driver_.status().pictures.trouble);
+  const std::string& fault = driver_.registration_fault();
+  if (fault != logged_registration_fault_ && !fault.empty()) {
+    logging::Warn("registration", {{"fault", fault}});
+  }
+  logged_registration_fault_ = fault;
+}
+
 transport::Health StereoDriverService::health() const {
   const FrameSourceStatus status = driver_.status();
   const std::string pose_trouble = dimos_.trouble();
   transport::Health health;
-  health.is_degraded = !status.pictures.trouble.empty() || !pose_trouble.empty();
+  health.is_degraded = !status.pictures.trouble.empty() || !pose_trouble.empty() ||
+                       !driver_.registration_fault().empty();
   health.Say(status.pictures.trouble);
   health.Say(pose_trouble);
+  health.Say(driver_.registration_fault());
   health.Say(driver_.calibration_remark());
   health.SayCount(status.pictures.corrupt, "corrupt pictures");
   health.SayCount(status.pictures.skipped, "skipped pictures");

@@ -67,6 +67,7 @@ class StereoDriverService {
   void Publish(const StereoOutput& output);
   void Publish(const geometry::CameraPose& pose);
   const capture::MountConfig& mount() const;
+  void LogNews();
   void LogSummary() const;
 
   StereoDriverServiceConfig config_;
@@ -76,6 +77,7 @@ class StereoDriverService {
   StereoDriver driver_;
   std::int64_t published_ = 0;  ///< Frames.
   program::SourceLog log_;
+  std::string logged_registration_fault_;
 };
 
 }  // namespace deixis::stereo_driver

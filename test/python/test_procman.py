@@ -82,6 +82,7 @@ def test_the_shipped_system_can_be_written(repository: Path, build: Path, tmp_pa
     file = sheriff_grammar.read(output.read_text(encoding="utf-8"), "libbot2")
     assert "camera_driver" in file.groups["deixis"]
     assert file.scripts["start"][-1] == ("start", "cmd", "camera_driver")
+    assert file.scripts["start stereo"][-1] == ("start", "cmd", "stereo_driver")
 
 
 def test_what_procman_would_change_is_refused(bench: Bench) -> None:

@@ -34,6 +34,15 @@ bool HasDistortion(const CameraCalibration& lens) {
                      [](double value) { return value != 0.0; });
 }
 
+/// The published picture's view, in the size that depth is brought into: at full size where there
+/// is more to it than half, so that halving takes means of what was measured.
+CameraCalibration RegisteredView(const CameraCalibration& rectified, Size depth_size,
+                                 const CameraCalibration& depth_lens) {
+  const int half_width = rectified.width_px / 2;
+  if (depth_size == Size::kFull || depth_lens.width_px > half_width) return rectified;
+  return geometry::Scaled(rectified, half_width, rectified.height_px / 2);
+}
+
 std::uint16_t MeanOfNearest(const std::array<std::uint16_t, 4>& distances) {
   int nearest = 0;
   for (const int value : distances) {
@@ -65,25 +74,27 @@ void HalveDepth(const cv::Mat& depth_mm, cv::Mat& halved_mm) {
   }
 }
 
-DepthCamera::DepthCamera(const geometry::StereoCalibration& calibration, Size depth_size)
+DepthCamera::DepthCamera(const geometry::StereoCalibration& calibration, Size depth_size,
+                         const std::optional<DepthView>& depth_view)
     : calibration_(calibration),
       depth_size_(depth_size),
       has_distortion_(HasDistortion(calibration.left)) {
   if (calibration.left.width_px <= 0 || calibration.left.height_px <= 0) {
     throw std::logic_error("DepthCamera: the calibration has no size");
   }
+  if (depth_view) {
+    registration_.emplace(*depth_view,
+                          RegisteredView(calibration.rectified, depth_size, depth_view->lens));
+  }
   if (!has_distortion_) return;
   MakeMaps(calibration_.left, calibration_.rectified, CV_16SC2, colour_map_x_, colour_map_y_);
 }
 
 const RectifiedDepth& DepthCamera::Rectify(const images::RgbdImage& image) {
-  result_ = {image.colour.bgr, image.depth.depth_mm};
+  result_ = {image.colour.bgr, InPicturesView(image.depth.depth_mm)};
   if (has_distortion_) {
     cv::remap(image.colour.bgr, rectified_bgr_, colour_map_x_, colour_map_y_, cv::INTER_LINEAR);
-    PrepareDepthMaps(image.depth.depth_mm.size());
-    // Never a mean: between a body and what lies behind it is nothing.
-    cv::remap(image.depth.depth_mm, rectified_mm_, depth_map_x_, depth_map_y_, cv::INTER_NEAREST);
-    result_ = {rectified_bgr_, rectified_mm_};
+    result_.left_bgr = rectified_bgr_;
   }
   const bool is_large = result_.depth_mm.cols >= result_.left_bgr.cols;
   if (depth_size_ == Size::kHalf && is_large) {
@@ -91,6 +102,18 @@ const RectifiedDepth& DepthCamera::Rectify(const images::RgbdImage& image) {
     result_.depth_mm = halved_mm_;
   }
   return result_;
+}
+
+const cv::Mat& DepthCamera::InPicturesView(const cv::Mat& depth_mm) {
+  if (registration_) {
+    registration_->Register(depth_mm, rectified_mm_);
+    return rectified_mm_;
+  }
+  if (!has_distortion_) return depth_mm;
+  PrepareDepthMaps(depth_mm.size());
+  // Never a mean: between a body and what lies behind it is nothing.
+  cv::remap(depth_mm, rectified_mm_, depth_map_x_, depth_map_y_, cv::INTER_NEAREST);
+  return rectified_mm_;
 }
 
 void DepthCamera::PrepareDepthMaps(cv::Size size) {

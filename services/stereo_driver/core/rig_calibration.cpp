@@ -4,8 +4,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
-#include "common/capture/opencv_file.h"
 #include "services/stereo_driver/core/camera_matrix.h"
+#include "services/stereo_driver/core/rig_files.h"
 
 namespace deixis::stereo_driver {
 namespace {
@@ -16,50 +16,9 @@ using geometry::CameraCalibration;
 using geometry::StereoCalibration;
 
 // Two cameras on one robot stand further apart than their sensors are wide, and not a metre.
-constexpr long kLeastBaseline_mm = 5;
-constexpr long kLargestBaseline_mm = 1000;
-constexpr double kRotationTolerance = 1e-3;
+const BaselineLimits kBaselineLimits = {5, 1000, "calibration.unit_m"};
 constexpr double kBaselineTolerance = 0.01;
 constexpr double kPrincipalPointTolerance_px = 0.01;
-
-Eigen::MatrixXd ReadMatrix(const OpenCvFile& file, const std::string& key, int rows, int cols) {
-  cv::Mat matrix = file.Matrix(key);
-  if (matrix.total() == static_cast<std::size_t>(rows) * cols && cols == 1) {
-    matrix = matrix.reshape(1, rows);
-  }
-  if (matrix.rows != rows || matrix.cols != cols) {
-    file.Fail(key + " must be " + std::to_string(rows) + "x" + std::to_string(cols) + " but is " +
-              std::to_string(matrix.rows) + "x" + std::to_string(matrix.cols) +
-              "; calibrate again or correct it");
-  }
-  Eigen::MatrixXd values;
-  cv::cv2eigen(matrix, values);
-  return values;
-}
-
-Eigen::Matrix3d ReadRotation(const OpenCvFile& file, const std::string& key) {
-  const Eigen::Matrix3d rotation = ReadMatrix(file, key, 3, 3);
-  const double error =
-      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (error > kRotationTolerance || rotation.determinant() < 0.0) {
-    file.Fail(key + " is not a rotation; calibrate again or correct it");
-  }
-  return rotation;
-}
-
-/// The translation of the left camera's origin into the right camera's frame, judged.
-Eigen::Vector3d ReadTranslation(const OpenCvFile& file, double unit_m) {
-  const Eigen::Vector3d translation_m = ReadMatrix(file, "T", 3, 1) * unit_m;
-  const long baseline_mm = std::lround(translation_m.norm() * 1000.0);
-  if (baseline_mm < kLeastBaseline_mm || baseline_mm > kLargestBaseline_mm) {
-    file.Fail("T makes a baseline of " + std::to_string(baseline_mm) +
-              " mm, which is not between " + std::to_string(kLeastBaseline_mm) + " and " +
-              std::to_string(kLargestBaseline_mm) +
-              "; set calibration.unit_m to the metres per unit of T (0.025 when it counts board "
-              "squares of 25 mm)");
-  }
-  return translation_m;
-}
 
 /// Along the line that halves the rotation between the cameras, as OpenCV rectifies.
 void RequireLeftToRight(const OpenCvFile& file, const geometry::RigidTransform& right_from_left) {
@@ -103,17 +62,8 @@ FiledRectification ReadRectification(const OpenCvFile& file, double unit_m, doub
 
 /// The size that a file states, else that of the configuration; 0 when neither says.
 cv::Size StatedSize(const OpenCvFile& file, const RigCalibrationConfig& config) {
-  const cv::Size filed(file.PixelCount("image_width"), file.PixelCount("image_height"));
+  const cv::Size filed = FiledSize(file);
   return filed.area() > 0 ? filed : cv::Size(config.width_px, config.height_px);
-}
-
-void SetSize(CameraCalibration& calibration, cv::Size size) {
-  calibration.width_px = size.width;
-  calibration.height_px = size.height;
-}
-
-LensFile ReadLensOf(const OpenCvFile& file, const std::string& number) {
-  return {file.path(), capture::ReadLens(file, {"M" + number, "", "D" + number, ""})};
 }
 
 void Rectify(StereoCalibration& calibration, double alpha) {
@@ -171,8 +121,7 @@ RigCalibration::RigCalibration(RigCalibrationConfig config) : config_(std::move(
   const cv::Size size = StatedSize(intrinsics_say ? intrinsics : extrinsics, config_);
   SetSize(left_.calibration, size);
   SetSize(right_.calibration, size);
-  right_from_left_.rotation = Eigen::Quaterniond(ReadRotation(extrinsics, "R")).normalized();
-  right_from_left_.translation_m = ReadTranslation(extrinsics, config_.unit_m);
+  right_from_left_ = ReadSecondFromFirst(extrinsics, config_.unit_m, kBaselineLimits);
   RequireLeftToRight(extrinsics, right_from_left_);
   if (config_.rectification == Rectification::kFromFile) {
     filed_ = ReadRectification(extrinsics, config_.unit_m, right_from_left_.translation_m.norm());

@@ -66,6 +66,12 @@ geometry::StereoCalibration Stamped(geometry::StereoCalibration calibration, Tim
   return calibration;
 }
 
+capture::Calibration ColourLens(const capture::CalibrationConfig& config,
+                                const std::optional<RegistrationCalibration>& registration) {
+  if (!registration || !registration->colour_lens()) return capture::Calibration(config);
+  return {config, *registration->colour_lens()};
+}
+
 bool IsOfSize(const geometry::StereoCalibration& calibration, cv::Size size) {
   return calibration.left.width_px == size.width && calibration.left.height_px == size.height;
 }
@@ -77,6 +83,11 @@ void DepthCameraConfig::Validate() const {
   faults.Require(depth_sigma_m_at_1m >= 0.0 && depth_sigma_m_at_1m <= kLargestDepthSigma_m,
                  "depth_sigma_m_at_1m", "must lie in 0..1 metres");
   calibration.Check(faults);
+  const bool has_both_lenses =
+      registration.mode == RegistrationMode::kExtrinsics && !registration.intrinsics.empty();
+  faults.Require(calibration.file.empty() || !has_both_lenses, "calibration.file",
+                 "must be empty when registration.intrinsics has the colour lens, too; or name "
+                 "registration.depth_lens instead of that");
   faults.ThrowIfAny();
 }
 
@@ -99,8 +110,12 @@ StereoDriver::StereoDriver(const StereoDriverConfig& config, std::unique_ptr<Fra
       pacer_(config.pace, config.start_time_utime) {
   if (source_) is_live_ = source_->status().pictures.is_live;
   if (MeasuresDepth(config.source.kind)) {
-    lens_.emplace(config.depth_camera.calibration);
-    mount_ = capture::MountOf(config.depth_camera.calibration.mount);
+    const DepthCameraConfig& depth_camera = config.depth_camera;
+    if (depth_camera.registration.mode == RegistrationMode::kExtrinsics) {
+      registration_.emplace(depth_camera.registration);
+    }
+    lens_.emplace(ColourLens(depth_camera.calibration, registration_));
+    mount_ = capture::MountOf(depth_camera.calibration.mount);
   } else {
     rig_.emplace(config.calibration);
     mount_ = capture::MountOf(config.calibration.mount);
@@ -144,7 +159,12 @@ StereoOutput StereoDriver::Convert(const images::StereoPair& pair) {
 }
 
 StereoOutput StereoDriver::Convert(const images::RgbdImage& image) {
-  PrepareDepthCamera(image.colour.bgr.size());
+  PrepareDepthCamera(image.colour.bgr.size(), image.depth.depth_mm.size());
+  // The other sources do not know.
+  if (config_.source.kind == FrameSourceKind::kKinectChannel) {
+    registration_fault_ =
+        RegistrationFault(config_.depth_camera.registration.mode, image.is_registered);
+  }
   return Packed(depth_camera_->Rectify(image), image.colour.time);
 }
 
@@ -166,13 +186,23 @@ void StereoDriver::UseMount(const std::optional<geometry::CameraMount>& mount) {
   mount_ = mount;
 }
 
-void StereoDriver::PrepareDepthCamera(cv::Size size) {
-  if (depth_camera_ && IsOfSize(calibration_, size)) return;
+void StereoDriver::PrepareDepthCamera(cv::Size size, cv::Size depth_size) {
+  const bool is_same = depth_camera_size_ == depth_size || !registration_;
+  if (depth_camera_ && IsOfSize(calibration_, size) && is_same) return;
+  depth_camera_.reset();
   auto [lens, remark] = lens_->For(size);
-  calibration_ = AsStereo(lens, config_.depth_camera.depth_sigma_m_at_1m);
-  depth_camera_.emplace(calibration_, config_.matcher.depth_size);
   remark_ = std::move(remark);
+  calibration_ = AsStereo(lens, config_.depth_camera.depth_sigma_m_at_1m);
+  depth_camera_.emplace(calibration_, config_.matcher.depth_size, ViewOfDepth(depth_size));
+  depth_camera_size_ = depth_size;
   schedule_.BeginAnew();
+}
+
+std::optional<DepthView> StereoDriver::ViewOfDepth(cv::Size depth_size) {
+  if (!registration_) return std::nullopt;
+  auto [view, remark] = registration_->For(depth_size);
+  if (!remark.empty()) remark_ += (remark_.empty() ? "" : "; ") + remark;
+  return std::move(view);
 }
 
 StereoOutput StereoDriver::Packed(const RectifiedDepth& depth, Timestamp time) {

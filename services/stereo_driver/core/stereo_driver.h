@@ -8,6 +8,7 @@
 #include "common/capture/pacer.h"
 #include "common/images/stereo_image.h"
 #include "services/stereo_driver/core/depth_camera.h"
+#include "services/stereo_driver/core/registration_calibration.h"
 #include "services/stereo_driver/core/rig_calibration.h"
 #include "services/stereo_driver/core/sources/sources.h"
 #include "services/stereo_driver/core/stereo_matcher.h"
@@ -23,11 +24,13 @@ inline capture::CalibrationConfig DepthCameraLensDefaults() {
 
 struct DepthCameraConfig {
   capture::CalibrationConfig calibration = DepthCameraLensDefaults();  ///< The colour lens.
+  RegistrationConfig registration;     ///< Whether depth is seen from where colour is.
   double depth_sigma_m_at_1m = 0.003;  ///< Error of a distance at 1 m; grows with its square.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
     v("calibration", calibration);
+    v("registration", registration);
     v("depth_sigma_m_at_1m", depth_sigma_m_at_1m);
   }
   void Validate() const;  ///< Throws FaultsFound.
@@ -103,13 +106,17 @@ class StereoDriver {
   /// What has to be known about the calibration; empty before the first frame and when it is as in
   /// its files.
   const std::string& calibration_remark() const { return remark_; }
+  /// What is wrong between what the sensor says of its last frame and what is configured, with the
+  /// cure; empty when nothing is.
+  const std::string& registration_fault() const { return registration_fault_; }
 
  private:
   capture::SourceState Fetch();
   bool IsDue(Timestamp now);
   StereoOutput ConvertAt(Timestamp time, Frame frame);
   void PrepareRig(cv::Size size);
-  void PrepareDepthCamera(cv::Size size);
+  void PrepareDepthCamera(cv::Size size, cv::Size depth_size);
+  std::optional<DepthView> ViewOfDepth(cv::Size depth_size);
   StereoOutput Packed(const RectifiedDepth& depth, Timestamp time);
   std::optional<geometry::StereoCalibration> CalibrationIfDue(Timestamp time);
 
@@ -120,12 +127,15 @@ class StereoDriver {
   bool is_live_ = true;
   std::optional<Frame> waiting_;  ///< Recorded frame whose time has not come.
 
-  std::optional<RigCalibration> rig_;         ///< For pairs.
-  std::optional<capture::Calibration> lens_;  ///< For colour and depth.
-  geometry::StereoCalibration calibration_;   ///< Of the frames that come now.
+  std::optional<RigCalibration> rig_;                    ///< For pairs.
+  std::optional<capture::Calibration> lens_;             ///< For colour and depth.
+  std::optional<RegistrationCalibration> registration_;  ///< For depth of another view.
+  geometry::StereoCalibration calibration_;              ///< Of the frames that come now.
   std::string remark_;
+  std::string registration_fault_;
   std::optional<StereoMatcher> matcher_;
   std::optional<DepthCamera> depth_camera_;
+  cv::Size depth_camera_size_;  ///< Of its depth.
   std::optional<geometry::CameraMount> mount_;
   capture::CalibrationSchedule schedule_;
 };

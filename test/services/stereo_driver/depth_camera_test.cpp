@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
+#include <utility>
 
 namespace deixis::stereo_driver {
 namespace {
@@ -83,6 +84,62 @@ TEST(DepthCamera, TakesDepthOfAnotherSizeThanThePicture) {
   DepthCamera camera(WithDistortion({64, 48}), Size::kFull);
   EXPECT_EQ(camera.Rectify(Frame({64, 48}, {32, 24})).depth_mm.size(), cv::Size(32, 24));
   EXPECT_EQ(camera.Rectify(Frame({64, 48}, {16, 12})).depth_mm.size(), cv::Size(16, 12));
+}
+
+/// Depth of the colour camera's own place and lens.
+DepthView SameView(const geometry::CameraCalibration& lens, cv::Size depth_size) {
+  DepthView view;
+  view.lens = geometry::Scaled(lens, depth_size.width, depth_size.height);
+  return view;
+}
+
+images::RgbdImage NoisyFrame(cv::Size colour, cv::Size depth) {
+  images::RgbdImage image = Frame(colour, depth);
+  cv::RNG random(9);
+  random.fill(image.depth.depth_mm, cv::RNG::UNIFORM, 1985, 2015);
+  image.depth.depth_mm(cv::Rect(0, 0, depth.width / 3, depth.height)) = 800;
+  image.depth.depth_mm.row(5).setTo(0);
+  return image;
+}
+
+TEST(DepthCamera, GivesByIdentityWhatTheSensorsRegistrationGives) {
+  const auto calibration = WithoutDistortion({64, 48});
+  for (const Size size : {Size::kFull, Size::kHalf}) {
+    const images::RgbdImage image = NoisyFrame({64, 48}, {64, 48});
+    DepthCamera sensor(calibration, size);
+    DepthCamera registering(calibration, size, SameView(calibration.left, {64, 48}));
+    const cv::Mat expected_mm = sensor.Rectify(image).depth_mm;
+    const RectifiedDepth& result = registering.Rectify(image);
+    EXPECT_EQ(result.depth_mm.size(), expected_mm.size());
+    EXPECT_EQ(cv::norm(result.depth_mm, expected_mm, cv::NORM_INF), 0.0);
+    EXPECT_EQ(cv::norm(result.left_bgr, image.colour.bgr, cv::NORM_INF), 0.0);
+  }
+}
+
+TEST(DepthCamera, GivesByIdentityAlmostTheSameOfALensWithDistortion) {
+  const auto calibration = WithDistortion({64, 48});
+  const images::RgbdImage image = NoisyFrame({64, 48}, {64, 48});
+  DepthCamera sensor(calibration, Size::kFull);
+  DepthCamera registering(calibration, Size::kFull, SameView(calibration.left, {64, 48}));
+  const cv::Mat expected_mm = sensor.Rectify(image).depth_mm;
+  cv::Mat difference_mm;
+  cv::absdiff(registering.Rectify(image).depth_mm, expected_mm, difference_mm);
+  // One takes the nearest pixel, the other interpolates: noise, but at edges.
+  EXPECT_LT(cv::countNonZero(difference_mm > 30), 64 * 48 / 30);
+}
+
+TEST(DepthCamera, RegistersToTheSizeThatIsAskedWhateverTheDepthHas) {
+  const auto calibration = WithDistortion({64, 48});
+  for (const cv::Size depth : {cv::Size(16, 12), cv::Size(32, 24), cv::Size(128, 96)}) {
+    const images::RgbdImage image = Frame({64, 48}, depth);
+    for (const auto& [size, expected] :
+         {std::pair(Size::kFull, cv::Size(64, 48)), std::pair(Size::kHalf, cv::Size(32, 24))}) {
+      DepthCamera camera(calibration, size, SameView(calibration.left, depth));
+      const cv::Mat& depth_mm = camera.Rectify(image).depth_mm;
+      EXPECT_EQ(depth_mm.size(), expected) << depth;
+      EXPECT_EQ(depth_mm.at<std::uint16_t>(12, 16), 2000) << depth;
+    }
+  }
 }
 
 TEST(HalveDepth, AveragesTheNearestSurfaceOnly) {

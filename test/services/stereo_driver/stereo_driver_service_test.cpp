@@ -13,7 +13,7 @@
 #include "common/messages/stereo_calibration.h"
 #include "common/messages/stereo_image.h"
 #include "common/messages/stereo_pair.h"
-#include "test/services/stereo_driver/synthetic_rig.h"
+#include "test/services/stereo_driver/synthetic_depth.h"
 #include "test/support/memory_bus.h"
 #include "test/support/temporary_folder.h"
 
@@ -132,6 +132,50 @@ TEST_F(StereoDriverServiceTest, TakesAKinectsFrames) {
   ASSERT_EQ(received_.size(), 1u);
   ExpectThePlane(received_[0]);
   EXPECT_EQ(received_[0].left.time.microseconds, 5);
+}
+
+TEST_F(StereoDriverServiceTest, RegistersAKinectsDepthThatIsNot) {
+  config_.driver.source.kind = FrameSourceKind::kKinectChannel;
+  RegistrationConfig& registration = config_.driver.depth_camera.registration;
+  registration.mode = RegistrationMode::kExtrinsics;
+  registration.intrinsics = folder_.Write("cd_in.yml", ColourAndDepthIntrinsics()).string();
+  registration.extrinsics = folder_.Write("cd_ex.yml", ColourAndDepthExtrinsics()).string();
+  StereoDriverService service(config_, bus_, bus_);
+  const DepthScene scene = {{Eigen::Vector3d::UnitZ(), 2.0}, {}};
+  images::RgbdImage image{{{5}, "", pair_.left.bgr},
+                          {{5}, "", MeasureDepth(DepthBesideColour(), scene)},
+                          /*is_registered=*/false};
+  bus_.Publish("KINECT_FRAME", image);
+  test::HandleAll(bus_);
+  ASSERT_EQ(received_.size(), 1u);
+  EXPECT_NEAR(received_[0].depth_mm.at<std::uint16_t>(60, 30), 2000, 1);
+  EXPECT_NEAR(received_[0].depth_mm.at<std::uint16_t>(60, 120), 2000, 1);
+  EXPECT_FALSE(service.health().is_degraded);
+  image.is_registered = true;
+  bus_.Publish("KINECT_FRAME", image);
+  test::HandleAll(bus_);
+  EXPECT_TRUE(service.health().is_degraded);
+  EXPECT_THAT(service.health().text, HasSubstr("mode to sensor"));
+}
+
+TEST_F(StereoDriverServiceTest, SaysOnceThatAKinectsDepthIsNotRegisteredAndTheCure) {
+  config_.driver.source.kind = FrameSourceKind::kKinectChannel;
+  StereoDriverService service(config_, bus_, bus_);
+  const images::RgbdImage image{{{5}, "", pair_.left.bgr},
+                                {{5}, "", cv::Mat(240, 320, CV_16UC1, cv::Scalar(2000))},
+                                /*is_registered=*/false};
+  testing::internal::CaptureStderr();
+  for (int i = 0; i < 3; ++i) {
+    bus_.Publish("KINECT_FRAME", image);
+    test::HandleAll(bus_);
+    service.Step();
+  }
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(received_.size(), 3u);
+  EXPECT_THAT(service.health().text, HasSubstr("registration.mode to extrinsics"));
+  const auto line = log.find("not registered to the colour picture");
+  ASSERT_NE(line, std::string::npos) << log;
+  EXPECT_EQ(log.find("not registered to the colour picture", line + 1), std::string::npos) << log;
 }
 
 TEST_F(StereoDriverServiceTest, TakesColourDepthAndLensOfADimosRobot) {

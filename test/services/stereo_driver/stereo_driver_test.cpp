@@ -5,7 +5,7 @@
 #include <deque>
 #include <opencv2/core.hpp>
 
-#include "test/services/stereo_driver/synthetic_rig.h"
+#include "test/services/stereo_driver/synthetic_depth.h"
 #include "test/support/temporary_folder.h"
 
 namespace deixis::stereo_driver {
@@ -115,6 +115,105 @@ TEST_F(StereoDriverTest, TurnsADepthCamerasFrameIntoTheSame) {
   EXPECT_EQ(output.calibration->depth_sigma_m_at_1m, 0.003);
   EXPECT_FALSE(output.calibration->rectified.is_calibrated);
   EXPECT_THAT(driver.calibration_remark(), testing::HasSubstr("guessed"));
+}
+
+class RegisteringDriverTest : public StereoDriverTest {
+ protected:
+  RegisteringDriverTest() {
+    config_.source.kind = FrameSourceKind::kKinectChannel;
+    config_.matcher.depth_size = Size::kFull;
+    RegistrationConfig& registration = config_.depth_camera.registration;
+    registration.mode = RegistrationMode::kExtrinsics;
+    const std::string sizes = "image_width: 320\nimage_height: 240\n";
+    registration.intrinsics =
+        folder_.Write("cd_in.yml", ColourAndDepthIntrinsics() + sizes).string();
+    registration.extrinsics = folder_.Write("cd_ex.yml", ColourAndDepthExtrinsics()).string();
+  }
+
+  const DepthScene scene_ = {{Eigen::Vector3d::UnitZ(), 2.5}, Screen{}};
+  const images::RgbdImage image_ = {{{7}, "", cv::Mat(240, 320, CV_8UC3, cv::Scalar(1, 2, 3))},
+                                    {{7}, "", MeasureDepth(DepthBesideColour(), scene_)},
+                                    /*is_registered=*/false};
+};
+
+TEST_F(RegisteringDriverTest, GivesDepthOfTheViewThatItsCalibrationSays) {
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  const StereoOutput output = driver.Convert(image_);
+  ASSERT_TRUE(output.calibration);
+  const geometry::CameraCalibration& said = output.calibration->rectified;
+  EXPECT_TRUE(said.focal_px.isApprox(ColourLens().focal_px));
+  EXPECT_TRUE(said.is_calibrated);
+  EXPECT_TRUE(output.calibration->left.focal_px.isApprox(ColourLens().focal_px));
+  EXPECT_TRUE(output.calibration->right_from_left.translation_m.isZero());
+  const cv::Mat truth_mm = MeasureDepth(said, {}, scene_);
+  const cv::Mat& depth_mm = output.stereo.depth_mm;
+  ASSERT_EQ(depth_mm.size(), truth_mm.size());
+  cv::Mat difference_mm;
+  cv::absdiff(depth_mm, truth_mm, difference_mm);
+  const cv::Mat is_off = (difference_mm > 3) & (depth_mm > 0);
+  EXPECT_LT(cv::countNonZero(is_off), 400);  // Half a pixel along the screen's edge.
+  EXPECT_EQ(driver.registration_fault(), "");
+}
+
+TEST_F(RegisteringDriverTest, TakesDepthThatChangesItsSize) {
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  driver.Convert(image_);
+  images::RgbdImage small = image_;
+  small.depth.depth_mm = cv::Mat(120, 160, CV_16UC1, cv::Scalar(1500));
+  EXPECT_EQ(driver.Convert(small).stereo.depth_mm.size(), cv::Size(320, 240));
+  images::RgbdImage square = image_;
+  square.depth.depth_mm = cv::Mat(100, 100, CV_16UC1, cv::Scalar(1500));
+  EXPECT_THROW(driver.Convert(square), std::runtime_error);
+  EXPECT_EQ(driver.Convert(image_).stereo.depth_mm.size(), cv::Size(320, 240));
+}
+
+TEST_F(RegisteringDriverTest, SaysWhenTheSensorHasRegisteredAlready) {
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  images::RgbdImage registered = image_;
+  registered.is_registered = true;
+  driver.Convert(registered);
+  EXPECT_THAT(driver.registration_fault(), testing::HasSubstr("mode to sensor"));
+  driver.Convert(image_);
+  EXPECT_EQ(driver.registration_fault(), "");
+}
+
+TEST_F(RegisteringDriverTest, TakesNoOtherSourcesWordForIt) {
+  config_.source.kind = FrameSourceKind::kDimos;
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  images::RgbdImage image = image_;
+  image.is_registered = true;
+  driver.Convert(image);
+  EXPECT_EQ(driver.registration_fault(), "");
+}
+
+TEST_F(RegisteringDriverTest, TakesTheFilesLensBeforeTheCamerasOwn) {
+  config_.source.kind = FrameSourceKind::kDimos;
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  driver.UseLens(geometry::GuessCalibration(320, 240, 1.0));
+  EXPECT_TRUE(
+      driver.Convert(image_).calibration->rectified.focal_px.isApprox(ColourLens().focal_px));
+}
+
+TEST_F(RegisteringDriverTest, TakesTheCamerasOwnLensBesideADepthLens) {
+  config_.source.kind = FrameSourceKind::kDimos;
+  RegistrationConfig& registration = config_.depth_camera.registration;
+  registration.depth_lens = registration.intrinsics;
+  registration.intrinsics.clear();
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  const auto own = geometry::GuessCalibration(320, 240, 1.0);
+  driver.UseLens(own);
+  EXPECT_TRUE(driver.Convert(image_).calibration->rectified.focal_px.isApprox(own.focal_px));
+}
+
+TEST(DepthCameraConfig, NamesTwoFilesForOneLens) {
+  DepthCameraConfig config;
+  config.registration.mode = RegistrationMode::kExtrinsics;
+  config.registration.intrinsics = "intrinsics.yml";
+  config.calibration.file = "colour.yml";
+  EXPECT_THAT(
+      [&] { config.Validate(); },
+      testing::ThrowsMessage<config::ConfigError>(testing::AllOf(
+          testing::HasSubstr("calibration.file"), testing::HasSubstr("registration.intrinsics"))));
 }
 
 TEST_F(StereoDriverTest, SaysTheCalibrationAnewWhenTheSizeChanges) {

@@ -34,23 +34,11 @@ cv::Mat Texture() {
   return 0.6 * fine + 0.4 * coarse;
 }
 
-/// The pixels' rays in the camera's own frame, z = 1.
-std::vector<cv::Point2d> Rays(const geometry::CameraCalibration& lens) {
-  std::vector<cv::Point2d> pixels, rays;
-  for (int y = 0; y < lens.height_px; ++y) {
-    for (int x = 0; x < lens.width_px; ++x) pixels.emplace_back(x, y);
-  }
-  const cv::TermCriteria exact(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 40, 1e-9);
-  cv::undistortPoints(pixels, rays, CameraMatrix(lens), lens.distortion, cv::noArray(),
-                      cv::noArray(), exact);
-  return rays;
-}
-
 cv::Mat See(const geometry::CameraCalibration& lens, const geometry::RigidTransform& left_from_lens,
             const Plane& plane, const cv::Mat& texture) {
   constexpr double kTexelsPerMetre = 128.0;
   cv::Mat map(lens.height_px, lens.width_px, CV_32FC2);
-  const std::vector<cv::Point2d> rays = Rays(lens);
+  const std::vector<cv::Point2d> rays = RaysOf(lens);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Eigen::Vector3d way = left_from_lens.rotation * Eigen::Vector3d(rays[i].x, rays[i].y, 1);
     const Eigen::Vector3d start = left_from_lens.translation_m;
@@ -72,6 +60,17 @@ std::string Text(cv::FileStorage& storage) { return storage.releaseAndGetString(
 cv::FileStorage Writer() { return {".yml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY}; }
 
 }  // namespace
+
+std::vector<cv::Point2d> RaysOf(const geometry::CameraCalibration& lens) {
+  std::vector<cv::Point2d> pixels, rays;
+  for (int y = 0; y < lens.height_px; ++y) {
+    for (int x = 0; x < lens.width_px; ++x) pixels.emplace_back(x, y);
+  }
+  const cv::TermCriteria exact(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 40, 1e-9);
+  cv::undistortPoints(pixels, rays, CameraMatrix(lens), lens.distortion, cv::noArray(),
+                      cv::noArray(), exact);
+  return rays;
+}
 
 geometry::StereoCalibration SyntheticRig() {
   geometry::StereoCalibration rig;

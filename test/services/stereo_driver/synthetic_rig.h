@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
 
 #include "common/geometry/stereo_calibration.h"
 #include "common/images/stereo_pair.h"
@@ -17,6 +19,9 @@ struct Plane {
 /// Two cameras of 320x240 with lens distortion, 0.12 m apart, the right one turned by two degrees;
 /// not rectified.
 geometry::StereoCalibration SyntheticRig();
+
+/// The pixels' rays in the camera's own frame, z = 1; row by row.
+std::vector<cv::Point2d> RaysOf(const geometry::CameraCalibration& lens);
 
 /// What they see of `plane`.
 images::StereoPair Photograph(const geometry::StereoCalibration& rig, const Plane& plane);

@@ -50,10 +50,19 @@ def render(system: System, layout: Layout, url: LcmUrl, choices: Choices) -> str
              f"group {_quoted(system.name)} {{"]
     for entry in system.services.values():
         lines += [f"    {line}" for line in _command(system, entry, layout, url, choices)]
-    lines += ["}", "", 'script "start" {']
-    lines += [f"    {action};" for action in _start(system, choices.wait_ms)]
-    lines += ["}", "", 'script "stop" {', f"    stop group {_quoted(system.name)};", "}"]
+    lines.append("}")
+    for script, names in _scripts(system).items():
+        lines += ["", f"script {_quoted(script)} {{"]
+        lines += [f"    {action};" for action in _start(system, names, choices.wait_ms)]
+        lines.append("}")
+    lines += ["", 'script "stop" {', f"    stop group {_quoted(system.name)};", "}"]
     return "\n".join(lines) + "\n"
+
+
+def _scripts(system: System) -> dict[str, list[str]]:
+    """What starts together: what `deixis start` takes when nothing is named, and each group."""
+    return {"start": list(system.start) or list(system.services),
+            **{f"start {group}": [group] for group in system.groups()}}
 
 
 def restarted_always(system: System) -> list[str]:
@@ -86,9 +95,9 @@ def _words(system: System, entry: ServiceEntry, layout: Layout, url: LcmUrl) -> 
     return shlex.join(words)
 
 
-def _start(system: System, wait_ms: int) -> Iterator[str]:
+def _start(system: System, names: list[str], wait_ms: int) -> Iterator[str]:
     """Starts in order; procman knows that a process runs, not that it is ready: hence the wait."""
-    wanted = system.with_needs(system.resolve(list(system.start) or list(system.services)))
+    wanted = system.with_needs(system.resolve(names))
     ready: set[str] = set()
     for name in wanted:
         entry = system.services[name]
