@@ -74,7 +74,8 @@ void AddStreams(CLI::App& app, Arguments& arguments, Texts& texts) {
 }
 
 void AddFit(CLI::App& app, Arguments& arguments, Texts& texts) {
-  app.add_option("--model", texts.model, "Lens model; auto: the best on views left out")
+  app.add_option("--model", texts.model,
+                 "Lens model; auto: the best on views left out; fisheye: not for stereo")
       ->check(CLI::IsMember({"plumb_bob", "rational", "fisheye", "auto"}))
       ->capture_default_str();
   app.add_flag("--fix-aspect", arguments.calibration.lens.has_fixed_aspect, "fx = fy");
@@ -99,9 +100,9 @@ void AddOutput(CLI::App& app, Arguments& arguments, Texts& texts) {
   app.add_option("--save", arguments.save, "Folder for pictures: corners, coverage, residuals");
   app.add_option("--time", arguments.time,
                  "Text for calibration_time (left out without: same input, same bytes)");
-  app.add_flag("--replace", texts.may_replace, "Replace files that are there");
-  app.add_flag("--force", arguments.permissions.may_write_poor,
-               "Write what would be refused, too, and mark it; replaces files");
+  app.add_flag("--force", texts.may_replace, "Replace files that are there");
+  app.add_flag("--accept-poor", arguments.permissions.may_write_poor,
+               "Write what would be refused, too, and mark it");
 }
 
 CLI::App* AddCamera(CLI::App& app, Arguments& arguments, Texts& texts) {
@@ -144,7 +145,7 @@ CLI::App* AddPrint(CLI::App& app, Arguments& arguments, Texts& texts) {
   CLI::App* print = app.add_subcommand("board", "Writes a board to print, in its true size");
   AddBoard(*print, arguments, texts);
   print->add_option("--print", arguments.output, "File to write: .pdf or .png")->required();
-  print->add_flag("--replace,--force", texts.may_replace, "Replace a file that is there");
+  print->add_flag("--force", texts.may_replace, "Replace a file that is there");
   return print;
 }
 
@@ -186,10 +187,15 @@ void RequireOneFeed(const Arguments& arguments) {
   }
 }
 
-void ReadModel(const Texts& texts, CalibrationOptions& options) {
+void ReadModel(const Texts& texts, Task task, CalibrationOptions& options) {
   static const std::map<std::string, LensModel> kModels{{"plumb_bob", LensModel::kPlumbBob},
                                                         {"rational", LensModel::kRational},
                                                         {"fisheye", LensModel::kFisheye}};
+  if (task == Task::kStereo && texts.model == "fisheye") {
+    throw CLI::ValidationError("--model",
+                               "a stereo pair's lenses must be plumb_bob, rational or auto: the "
+                               "stereo driver takes no fisheye");
+  }
   if (texts.model == "auto") {
     options.choice = ModelChoice::kByCrossValidation;
   } else {
@@ -199,15 +205,14 @@ void ReadModel(const Texts& texts, CalibrationOptions& options) {
 
 void ReadTexts(const Texts& texts, Arguments& arguments) {
   ReadBoard(texts, arguments);
-  const bool may_replace = texts.may_replace || arguments.permissions.may_write_poor;
-  arguments.permissions.existing = may_replace ? Existing::kReplace : Existing::kKeep;
+  arguments.permissions.existing = texts.may_replace ? Existing::kReplace : Existing::kKeep;
   if (arguments.task == Task::kPrintBoard) {
     const auto ending = arguments.output.extension();
     if (ending == ".pdf" || ending == ".png") return;
     throw CLI::ValidationError("--print", "the file's name must end in .pdf or .png");
   }
   RequireOneFeed(arguments);
-  ReadModel(texts, arguments.calibration);
+  ReadModel(texts, arguments.task, arguments.calibration);
   if (texts.has_fixed_lenses) arguments.calibration.refinement = Refinement::kPlacesOnly;
   const bool is_files = !arguments.feed.left.empty();
   if (!texts.size.empty()) arguments.feed.device_size = ParseSize(texts.size, "--size");

@@ -27,10 +27,10 @@ struct FeedArguments {
   std::string device_fourcc;
 };
 
-/// What --force and --replace allow.
+/// What --force and --accept-poor allow.
 struct Permissions {
   Existing existing = Existing::kKeep;
-  bool may_write_poor = false;  ///< --force
+  bool may_write_poor = false;  ///< --accept-poor
 };
 
 struct Arguments {

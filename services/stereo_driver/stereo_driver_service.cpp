@@ -102,7 +102,8 @@ void StereoDriverService::Listen(transport::Bus& input) {
 program::StepResult StereoDriverService::Step() {
   const StereoStep step = driver_.Next(clock_.Now());
   if (step.output) Publish(*step.output);
-  LogNews();
+  log_.Note(driver_.calibration_remark(), driver_.status().pictures.trouble);
+  LogRegistration();
   if (step.state == capture::SourceState::kFinished) LogSummary();
   return program::ResultOf(step.state);
 }
@@ -144,12 +145,10 @@ void StereoDriverService::LogSummary() const {
                                        {"unusable", status.unusable}});
 }
 
-void StereoDriverService::LogNews() {
-  log_.Note(driver_.calibration_remark(), driver_.status().pictures.trouble);
+void StereoDriverService::LogRegistration() {
   const std::string& fault = driver_.registration_fault();
-  if (fault != logged_registration_fault_ && !fault.empty()) {
-    logging::Warn("registration", {{"fault", fault}});
-  }
+  const bool is_new = fault != logged_registration_fault_;
+  if (is_new && !fault.empty()) logging::Warn("registration", {{"fault", fault}});
   logged_registration_fault_ = fault;
 }
 

@@ -67,7 +67,7 @@ class StereoDriverService {
   void Publish(const StereoOutput& output);
   void Publish(const geometry::CameraPose& pose);
   const capture::MountConfig& mount() const;
-  void LogNews();
+  void LogRegistration();
   void LogSummary() const;
 
   StereoDriverServiceConfig config_;

@@ -67,6 +67,16 @@ final class BodiesTest {
     Checks.equal(1, memory.with(skeleton(1, 0)).people.size());
   }
 
+  public static void noMoreThanACrowdIsGathered() throws Exception {
+    SkeletonMemory memory = new SkeletonMemory();
+    for (int user = 0; user < Figures.MAX_PEOPLE; ++user) {
+      memory.with(skeleton(user, 0));
+    }
+    Checks.damaged("more than 64 people", () -> memory.with(skeleton(1000, 0)));
+    Checks.equal(Figures.MAX_PEOPLE, memory.with(skeleton(0, 0)).people.size());
+    Checks.equal(1, memory.with(skeleton(1000, 2_000_000)).people.size());
+  }
+
   public static void extentGrowsAndLeavesLostLimbsOut() throws Exception {
     Extent extent = new Extent();
     Checks.isTrue(extent.isEmpty(), "empty at first");

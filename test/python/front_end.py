@@ -6,33 +6,41 @@ import os
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 import lcm
-from bench import heed_interrupts
+from bench import heed_interrupts, killed_after
 from deixis import channel_status_t, drop_count_t, service_status_t
 
 Event = tuple[int, str, bytes]  # time in microseconds, channel, data
 
 
-def deixis(url: str, *arguments: object, prefix: tuple[str, ...] = (), stdin: str = "",
-           **environment: str) -> subprocess.CompletedProcess[str]:
+def deixis(url: str, *arguments: object, prefix: Sequence[str] = (), stdin: str = "",
+           seconds: float = 60.0, **environment: str) -> subprocess.CompletedProcess[str]:
     """Runs a command of the front end to its end."""
-    command = [*prefix, sys.executable, "-m", "deixis_frontend", *map(str, arguments)]
-    return subprocess.run(command, env=_environment(url) | environment, input=stdin,
-                          capture_output=True, text=True, check=False, timeout=30)
+    return run(url, [*prefix, sys.executable, "-m", "deixis_frontend", *arguments], stdin=stdin,
+               seconds=seconds, **environment)
+
+
+def run(url: str, command: Sequence[object], *, stdin: str = "", seconds: float = 60.0,
+        **environment: str) -> subprocess.CompletedProcess[str]:
+    """Runs any program to its end, on the bus `url`."""
+    return subprocess.run(list(map(str, command)), env=_environment(url) | environment, input=stdin,
+                          capture_output=True, text=True, check=False, timeout=seconds)
 
 
 @contextmanager
-def deixis_beside(url: str, *arguments: object) -> Iterator[subprocess.Popen[str]]:
-    """Runs a command beside the test; nothing of it is left behind."""
+def deixis_beside(url: str, *arguments: object,
+                  seconds: float = 60.0) -> Iterator[subprocess.Popen[str]]:
+    """Runs a command beside the test; nothing of it is left behind, nor after so many seconds."""
     command = [sys.executable, "-m", "deixis_frontend", *map(str, arguments)]
     with subprocess.Popen(command, env=_environment(url), text=True, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, preexec_fn=heed_interrupts) as process:
         try:
-            yield process
+            with killed_after(seconds, process):
+                yield process
         finally:
             process.kill()
 

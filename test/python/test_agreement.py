@@ -9,6 +9,7 @@ from pathlib import Path
 from deixis_frontend import __version__, lcm_url
 from deixis_frontend.cli import COMMANDS
 from deixis_frontend.listening import rates
+from deixis_lcm import decoding
 
 
 def found(path: Path, pattern: str) -> str:
@@ -33,6 +34,14 @@ def test_all_ask_for_the_same_receive_buffer_and_the_kernel_is_set_to_allow_it(
 def test_gaps_are_counted_as_the_services_count_them(repository: Path) -> None:
     largest = found(repository / "common/transport/publisher_sequences.cpp", r"kLargestGap = ([\d']+);")
     assert int(largest.replace("'", "")) == rates.LARGEST_GAP
+
+
+def test_what_does_not_decode_is_counted_by_the_words_of_the_services(repository: Path) -> None:
+    services = (repository / "common/messages/wire_check.cpp").read_text(encoding="utf-8")
+    words = set(re.findall(r'return "(\w+)";', services))
+    python = (repository / "scripts/python/deixis_lcm/decoding.py").read_text(encoding="utf-8")
+    used = set(re.findall(r'(?:DecodeError\(|data, )"(\w+)"', python))
+    assert used == set(decoding.REASONS) == words - {"too_large"}  # No Python reads 2 GB at once.
 
 
 def test_the_readme_has_every_command_and_no_other(repository: Path) -> None:

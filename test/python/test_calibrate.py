@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from bench import heed_interrupts
+from front_end import deixis, deixis_beside
 from PIL import Image
 
 from deixis_frontend.cli import main
@@ -22,22 +20,19 @@ CAMERA = np.array([[600.0, 0.0, 322.0], [0.0, 600.0, 238.0], [0.0, 0.0, 1.0]])
 BASELINE_M = 0.08
 
 
-def deixis(*arguments: object, **options: object) -> subprocess.CompletedProcess[str]:
-    """Runs the front end to its end."""
-    return subprocess.run([sys.executable, "-m", "deixis_frontend", *map(str, arguments)],
-                          env=environment(), text=True, capture_output=True, check=False,
-                          timeout=300, **options)
+NO_BUS = "memq://"
 
 
-def environment() -> dict[str, str]:
-    return {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+def calibrate(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """Runs `deixis calibrate` to its end, on files."""
+    return deixis(NO_BUS, "calibrate", *arguments, seconds=300.0)
 
 
 @pytest.fixture(scope="module")
 def printed(tmp_path_factory: pytest.TempPathFactory) -> Image.Image:
     """The board as `calibrate board` prints it: a margin of one square around ten by seven."""
     path = tmp_path_factory.mktemp("board") / "board.png"
-    done = deixis("calibrate", "board", *BOARD, "--print", path)
+    done = calibrate("board", *BOARD, "--print", path)
     assert done.returncode == 0, done.stderr
     assert "250 mm" in done.stdout
     return Image.open(path).convert("L").reduce(9)  # about as fine as the pictures
@@ -88,19 +83,19 @@ def numbers(text: str, key: str) -> list[float]:
 
 def test_a_camera_is_calibrated_from_files(pictures: Path, tmp_path: Path) -> None:
     output = tmp_path / "camera.yml"
-    done = deixis("calibrate", "camera", *BOARD, "--pictures", pictures / "left*.png", "-o", output)
+    done = calibrate("camera", *BOARD, "--pictures", pictures / "left*.png", "-o", output)
     assert done.returncode == 0, done.stdout + done.stderr
     matrix = numbers(output.read_text(encoding="utf-8"), "camera_matrix")
     assert matrix[0] == pytest.approx(600.0, abs=4.0)
     assert matrix[2] == pytest.approx(322.0, abs=4.0)
-    again = deixis("calibrate", "camera", *BOARD, "--pictures", pictures / "left*.png", "-o", output)
+    again = calibrate("camera", *BOARD, "--pictures", pictures / "left*.png", "-o", output)
     assert again.returncode == 1
     assert again.stderr.splitlines() == [
-        f"deixis-calibrator: {output} is there already: name another --output, or give --replace"]
+        f"deixis-calibrator: {output} is there already: name another --output, or give --force"]
 
 
 def test_a_stereo_pair_is_calibrated_from_files(pictures: Path, tmp_path: Path) -> None:
-    done = deixis("calibrate", "stereo", *BOARD, "--left", pictures / "left*.png",
+    done = calibrate("stereo", *BOARD, "--left", pictures / "left*.png",
                   "--right", pictures / "right*.png", "-o", tmp_path / "rig")
     assert done.returncode == 0, done.stdout + done.stderr
     place = numbers((tmp_path / "rig" / "extrinsics.yml").read_text(encoding="utf-8"), "T")
@@ -109,7 +104,7 @@ def test_a_stereo_pair_is_calibrated_from_files(pictures: Path, tmp_path: Path) 
 
 def test_a_poor_calibration_is_not_written(pictures: Path, tmp_path: Path) -> None:
     output = tmp_path / "camera.yml"
-    done = deixis("calibrate", "camera", *BOARD, "-o", output,
+    done = calibrate("camera", *BOARD, "-o", output,
                   "--pictures", *(pictures / f"left{i}.png" for i in range(4)))
     assert done.returncode == 1
     assert "4 views are too few" in done.stdout
@@ -117,7 +112,7 @@ def test_a_poor_calibration_is_not_written(pictures: Path, tmp_path: Path) -> No
 
 
 def test_unequal_lists_are_told_in_a_line(pictures: Path, tmp_path: Path) -> None:
-    done = deixis("calibrate", "stereo", *BOARD, "--left", pictures / "left*.png",
+    done = calibrate("stereo", *BOARD, "--left", pictures / "left*.png",
                   "--right", pictures / "right0.png", "-o", tmp_path)
     assert done.returncode == 1
     assert "--left names 12 pictures but --right 1" in done.stderr
@@ -125,27 +120,22 @@ def test_unequal_lists_are_told_in_a_line(pictures: Path, tmp_path: Path) -> Non
 
 @pytest.mark.parametrize("arguments", [(), ("lens",), ("camera",), ("camera", "--board", "9")])
 def test_wrong_usage_ends_with_two(arguments: tuple[str, ...]) -> None:
-    assert deixis("calibrate", *arguments).returncode == 2
+    assert calibrate(*arguments).returncode == 2
 
 
 def test_help_of_a_part_is_the_programs() -> None:
-    done = deixis("calibrate", "stereo", "--help")
+    done = calibrate("stereo", "--help")
     assert done.returncode == 0
     assert "--side-by-side" in done.stdout
 
 
 def test_ctrl_c_ends_the_collecting(url: str, tmp_path: Path) -> None:
-    process = subprocess.Popen(
-        [sys.executable, "-m", "deixis_frontend", "calibrate", "-l", url, "camera", *BOARD,
-         "--channel", "CAMERA", "-o", str(tmp_path / "camera.yml")], env=environment(), text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=heed_interrupts)
-    try:
+    with deixis_beside(url, "calibrate", "-l", url, "camera", *BOARD, "--channel", "CAMERA",
+                       "-o", tmp_path / "camera.yml") as process:
         assert process.stdout is not None
         assert "no pictures have come on channel CAMERA" in process.stdout.readline()
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
-    finally:
-        process.kill()
     assert process.returncode == 1
     assert errors.startswith("deixis-calibrator: no view was accepted out of 0 pictures")
 
@@ -159,6 +149,16 @@ def test_the_evaluation_compares_with_the_sample(pictures: Path, tmp_path: Path,
     assert said.startswith("12 pairs")
     assert "opencv sample" in said
     assert '"held_out_rows"' in report.read_text(encoding="utf-8")
+
+
+def test_pictures_of_an_evaluation_leave_the_rigs_calibration_alone(pictures: Path,
+                                                                    tmp_path: Path) -> None:
+    (tmp_path / "intrinsics.yml").write_text("the rig's own\n", encoding="ascii")
+    assert main(["evaluate", "calibration", "--data", str(pictures), "--left", "left*.png",
+                 "--right", "right*.png", "--save", str(tmp_path)]) == 0
+    assert (tmp_path / "intrinsics.yml").read_text(encoding="ascii") == "the rig's own\n"
+    assert not (tmp_path / "extrinsics.yml").exists()
+    assert (tmp_path / "rectified.png").exists()
 
 
 def test_an_evaluation_without_pictures_is_told(tmp_path: Path,

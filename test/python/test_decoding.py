@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from bot_core import image_t, images_t
-from deixis import candidate_t, gesture_t, service_status_t
+from deixis import candidate_t, gesture_t, object_t, service_status_t
 from deixis_lcm import decoding, images, stamps
 from kinect import skeleton_msg_t
 
@@ -66,24 +66,41 @@ def test_a_lying_length_is_found_out_at_once(length: int) -> None:
     for data in (structs, blob, numbers, text):
         with pytest.raises(decoding.DecodeError) as error:
             decoding.decode(data, TYPES)
-        assert error.value.reason in ("truncated", "too_many")
+        assert error.value.reason in ("truncated", "bad_length")
 
 
 def test_a_length_below_zero_before_structs_is_no_empty_list() -> None:
     data = skeleton().encode()
     data = data[:16] + struct.pack(">i", -5) + data[20:]
     assert skeleton_msg_t.decode(data).links == []
-    with pytest.raises(decoding.DecodeError, match="num_links is -5"):
+    with pytest.raises(decoding.DecodeError, match="num_links is -5") as error:
         decoding.decode(data, TYPES)
+    assert error.value.reason == "bad_length"
 
 
 @pytest.mark.parametrize(("change", "reason"), [
     (lambda data: data[:-1], "truncated"), (lambda data: data[:9], "truncated"),
-    (lambda data: data + b"x", "trailing_bytes")])
+    (lambda data: data + b"x", "trailing_bytes"),
+    (lambda data: data.replace(b"pointing\0", b"pointing!"), "bad_string"),
+    (lambda data: data.replace(b"pointing\0", b"point\0ng\0"), "bad_string"),
+    (lambda data: data.replace(b"pointing\0", b"point\xffng\0"), "bad_string"),
+    (lambda data: data.replace(b"\0\0\0\x09pointing\0", b"\0\0\0\0"), "bad_string")])
 def test_the_reason_is_a_word_for_counting(change: Any, reason: str) -> None:
     with pytest.raises(decoding.DecodeError, match="deixis.gesture_t of") as error:
         decoding.decode(change(gesture().encode()), TYPES)
     assert error.value.reason == reason
+
+
+def test_a_boolean_that_is_neither_yes_nor_no_is_told() -> None:
+    message = object_t()
+    without = message.encode()
+    message.has_box = True
+    data = message.encode()
+    [at] = [place for place, pair in enumerate(zip(without, data)) if pair[0] != pair[1]]
+    for damaged in (data[:at] + b"\2" + data[at + 1:], data[:at] + b"\xff" + data[at + 1:]):
+        with pytest.raises(decoding.DecodeError, match="has a boolean that is") as error:
+            decoding.decode(damaged, TYPES)
+        assert error.value.reason == "bad_boolean"
 
 
 def test_another_type_than_the_one_asked_for_is_told() -> None:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-import sys
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,6 +12,7 @@ from pathlib import Path
 import lcm
 import pytest
 from bench import Bench, becomes_true
+from front_end import deixis, run, speaking
 
 _MOUNT = 'mount -t tmpfs -o "$2" tmpfs "$1" || exit 97; shift 2; exec "$@"'
 _MOUNT_AND_LIST = _MOUNT.replace('exec "$@"', '"$@"; code=$?; ls "$folder"; exit $code').replace(
@@ -35,16 +34,6 @@ def disk(tmp_path: Path) -> Disk:
     return prefix
 
 
-def run(command: list[str], url: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(command, check=False, capture_output=True, text=True, timeout=60,
-                          env={**os.environ, "LCM_DEFAULT_URL": url,
-                               "PYTHONPATH": os.pathsep.join(sys.path)})
-
-
-def deixis(*words: object) -> list[str]:
-    return [sys.executable, "-m", "deixis_frontend", *map(str, words)]
-
-
 @contextmanager
 def pictures_of_noise(url: str) -> Iterator[None]:
     """Raw pictures on CAMERA, ten a second, of which a PNG needs 900 kB."""
@@ -53,28 +42,21 @@ def pictures_of_noise(url: str) -> Iterator[None]:
     message.width, message.height, message.row_stride = 640, 480, 1920
     message.pixelformat, message.data = image_t.PIXEL_FORMAT_BGR, os.urandom(1920 * 480)
     message.size = len(message.data)
-    bus, over = lcm.LCM(url), threading.Event()
 
-    def talk() -> None:
-        while not over.wait(0.1):
-            message.utime += 100_000
-            bus.publish("CAMERA", message.encode())
+    def picture(number: int) -> tuple[str, bytes]:
+        message.utime = 100_000 * (number + 1)
+        return "CAMERA", message.encode()
 
-    thread = threading.Thread(target=talk)
-    thread.start()
-    try:
+    with speaking(url, picture, period_s=0.1):
         yield
-    finally:
-        over.set()
-        thread.join()
 
 
 def test_a_recording_that_fills_the_disk_says_so_and_keeps_what_came_before(
         url: str, disk: Disk, tmp_path: Path) -> None:
     folder = tmp_path / "small"
     with pictures_of_noise(url):
-        done = run([*disk(folder, script=_MOUNT_AND_LIST),
-                    *deixis("record", "--seconds", 20, "-o", folder / "x.lcmlog")], url)
+        done = deixis(url, "record", "--seconds", 20, "-o", folder / "x.lcmlog",
+                      prefix=disk(folder, script=_MOUNT_AND_LIST))
     assert done.returncode == 1, done.stderr
     [line] = done.stderr.splitlines()
     assert "the disk is full" in line and ".part" in line
@@ -83,8 +65,8 @@ def test_a_recording_that_fills_the_disk_says_so_and_keeps_what_came_before(
 
 def test_a_recording_on_a_disk_that_cannot_be_written_is_refused(
         url: str, disk: Disk, tmp_path: Path) -> None:
-    done = run([*disk(tmp_path / "fixed", "ro"),
-                *deixis("record", "--seconds", 1, "-o", tmp_path / "fixed" / "x.lcmlog")], url)
+    done = deixis(url, "record", "--seconds", 1, "-o", tmp_path / "fixed" / "x.lcmlog",
+                  prefix=disk(tmp_path / "fixed", "ro"))
     assert done.returncode == 1
     assert "Read-only file system: name another --output" in done.stderr
 
@@ -96,8 +78,8 @@ def test_offline_results_that_fill_the_disk_are_told_and_taken_away(
     for number in range(100):
         file.write_event(number, "A", bytes(10_000))
     file.close()
-    done = run([*disk(folder, script=_MOUNT_AND_LIST),
-                *deixis("run-offline", log, folder / "out.lcmlog")], url)
+    done = deixis(url, "run-offline", log, folder / "out.lcmlog",
+                  prefix=disk(folder, script=_MOUNT_AND_LIST))
     assert done.returncode == 1
     assert "No space left on device; free some space" in done.stderr
     assert done.stdout == ""
@@ -107,9 +89,9 @@ def test_a_camera_whose_log_fills_the_disk_ends_and_says_so(
         url: str, build: Path, repository: Path, disk: Disk, tmp_path: Path) -> None:
     folder = tmp_path / "small"
     clip = repository / "test/data/clips/spread_01/left.mp4"
-    done = run([*disk(folder), str(build / "bin/deixis-camera-driver"),
-                "-l", f"file://{folder}/x.lcmlog?mode=w", "--set", "source.kind=video",
-                "--set", f"source.path={clip}", "--set", "pace=as_fast_as_possible"], url)
+    done = run(url, [*disk(folder), build / "bin/deixis-camera-driver",
+                     "-l", f"file://{folder}/x.lcmlog?mode=w", "--set", "source.kind=video",
+                     "--set", f"source.path={clip}", "--set", "pace=as_fast_as_possible"])
     assert done.returncode == 1, done.stderr
     assert "No space left on device; free some space" in done.stderr.splitlines()[-1]
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 import json
 import os
 import shutil
 import socket
+import subprocess
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,12 +22,15 @@ from deixis_frontend import layout, lcm_url
 from deixis_frontend.doctor import firewall, fixing, installation, machine, network, services
 from deixis_frontend.doctor.command_lines import CommandLines
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding, examine
+from deixis_frontend.doctor.wanted_cameras import wanted_cameras
 from deixis_frontend.errors import UserError
 from deixis_frontend.listening.source import Arrival
 from deixis_frontend.listening.traffic import Traffic
+from deixis_frontend.supervision import system_file
 
 URL = lcm_url.parse("udpm://239.255.76.67:7667?ttl=0")
-COMMANDS = CommandLines(URL, None)
+LAUNCHER = layout.find().launcher
+COMMANDS = CommandLines(LAUNCHER, URL, None)
 
 
 def doctor(bench: Bench, *arguments: str) -> tuple[int, dict[str, Any]]:
@@ -61,7 +67,7 @@ def test_a_system_on_another_bus_is_pointed_at(bench: Bench) -> None:
     other = str(lcm_url.with_free_port())
     _, report = doctor(bench, "-l", other)
     [finding] = [finding for finding in report["findings"] if finding["check"] == "system"]
-    assert finding["level"] == WARNING and finding["cure"] == f"deixis doctor -l '{bench.url}'"
+    assert finding["level"] == WARNING and finding["cure"] == f"{LAUNCHER} doctor -l '{bench.url}'"
 
 
 def test_missing_and_other_programs_are_problems(bench: Bench) -> None:
@@ -80,6 +86,17 @@ def test_a_wrong_system_file_is_a_problem_among_others(bench: Bench) -> None:
     code, report = doctor(bench)
     assert code == 1 and PROBLEM in levels(report, "system")
     assert levels(report, "publishers") == [OK]
+
+
+def test_cures_run_as_they_are_printed(bench: Bench) -> None:
+    bench.write({"one": {}})
+    with speaking(bench.url, lambda n: ("TWO", hand_tracks_t().encode()),
+                  lambda n: ("TWO", objects_t().encode())):
+        _, report = doctor(bench)
+        [finding] = [finding for finding in report["findings"] if finding["check"] == "types"]
+        shown = subprocess.run(["sh", "-c", finding["cure"]], capture_output=True, text=True,
+                               check=False, timeout=30, cwd="/")
+    assert shown.returncode == 0 and "# TWO " in shown.stdout, shown
 
 
 def test_two_publishers_and_two_types_on_a_channel_are_problems(bench: Bench) -> None:
@@ -134,8 +151,10 @@ def test_a_small_receive_buffer_is_a_warning(monkeypatch: pytest.MonkeyPatch) ->
     assert finding.fixes == (("sysctl", "-w", "net.core.rmem_max=4194304"),)
     monkeypatch.setattr(network, "granted_buffer", lambda asked: asked)
     assert network.receive_buffer(URL)[0].level == OK
-    asking = lcm_url.parse("udpm://239.255.76.67:7667?ttl=0&recv_buf_size=1000")
-    assert network.receive_buffer(asking)[0].level == WARNING
+    asking = lcm_url.parse("udpm://239.255.76.67:7667?ttl=1&recv_buf_size=1000")
+    [small] = network.receive_buffer(asking)
+    assert small.level == WARNING
+    assert small.cure == "export LCM_DEFAULT_URL='udpm://239.255.76.67:7667?ttl=1'"
 
 
 def test_the_buffer_is_what_the_kernel_grants() -> None:
@@ -149,17 +168,41 @@ def test_a_url_that_lets_messages_out_is_a_warning() -> None:
     assert network.reach(URL)[0].level == OK
 
 
+def nft(rule: str, hook: str = "input", table: str = "inet", before: str = "") -> str:
+    """What nft lists of a table with one chain."""
+    return (f"table {table} filter {{\n\tset others {{\n\t\ttype ipv4_addr\n\t}}\n\n"
+            f"\tchain guard {{\n\t\ttype filter hook {hook} priority filter; policy accept;\n"
+            f"\t\t{before}\n\t\t{rule}\n\t}}\n}}\n")
+
+
+POLICY = "table ip filter {{\n chain x {{\n type filter hook {} priority 0; policy drop;\n }}\n}}"
+
+
 @pytest.mark.parametrize(("rules", "is_closed"), [
-    ('udp dport 7667 iifname != "lo" drop', True), ("udp dport { 22, 7667 } reject", True),
-    ("udp dport 7000-8000 drop", True), ("-A INPUT ! -i lo -p udp --dport 7667 -j DROP", True),
+    (nft('udp dport 7667 iifname != "lo" drop'), True), (nft("udp dport { 22, 7667 } reject"), True),
+    (nft("udp dport 7000-8000 counter packets 3 bytes 40 drop"), True),
+    (nft("meta l4proto { tcp, udp } th dport 7667 drop"), True),
+    (nft("counter packets 0 bytes 0 drop"), True),
+    (nft("udp dport 7667 drop", before="ct state established,related accept"), True),
+    ("-A INPUT ! -i lo -p udp -m udp --dport 7667 -j DROP", True), ("-A INPUT -j DROP", True),
     ("-A INPUT -p udp -m multiport --dports 7660:7670 -j REJECT", True),
-    ("udp dport 7668 drop", False), ("udp dport 17667 drop", False),
-    ("udp dport 7667 accept", False), ("", False), ("-P INPUT ACCEPT", False),
-    ("type filter hook input priority filter; policy drop;", True), ("-P INPUT DROP", True),
-    ("type filter hook output priority filter; policy drop;", False),
+    (nft("udp dport 7668 drop"), False), (nft("udp dport 17667 drop"), False),
+    (nft("udp dport 7667 accept"), False), ("", False), ("-P INPUT ACCEPT", False),
+    (POLICY.format("input"), True), ("-P INPUT DROP", True), (POLICY.format("output"), False),
     ("-P INPUT DROP\n-A INPUT -p udp --dport 7667 -j ACCEPT", False),
     ("-P INPUT DROP\n-A INPUT -i eth0 -j ACCEPT", False),
-    ("-P INPUT DROP\n-A INPUT -i lo -j ACCEPT\n-A INPUT -p tcp --dport 22 -j ACCEPT", True)])
+    ("-P INPUT DROP\n-A INPUT -i lo -j ACCEPT\n-A INPUT -p tcp --dport 22 -j ACCEPT", True),
+    # Those that refuse something else, or some only.
+    (nft("tcp dport 7000-8000 drop"), False), ("-A INPUT -p tcp --dport 7667 -j DROP", False),
+    (nft("udp dport 7667 drop", hook="output"), False),
+    (nft("udp dport 7667 drop", table="ip6"), False),
+    (nft('udp dport 7667 iifname "lo" drop'), False),
+    ("-A INPUT -s 10.0.0.5/32 -p udp -m udp --dport 7667 -j DROP", False),
+    ("-A FORWARD -p udp -m udp --dport 7667 -j DROP", False),
+    (nft("udp dport 7667 limit rate over 5/second drop"), False),
+    (nft("udp dport != 7667 drop"), False), (nft("udp sport 7667 drop"), False),
+    (nft("udp dport 7667 drop", before='iifname "eth0" accept'), False),
+    (nft("udp dport 7667 drop", before="jump others"), False)])
 def test_rules_that_close_the_port_are_found(rules: str, is_closed: bool) -> None:
     assert bool(firewall.closing_rule(rules, 7667)) == is_closed
 
@@ -168,39 +211,55 @@ def fence(monkeypatch: pytest.MonkeyPatch, interfaces: list[str], user: int, rul
     monkeypatch.setattr(network, "_interfaces_to_others", lambda: interfaces)
     monkeypatch.setattr(network, "_rules", lambda: rules)
     monkeypatch.setattr(os, "geteuid", lambda: user)
-    [finding] = network.fence(URL)
+    [finding] = network.fence(URL, COMMANDS)
     return finding
 
 
 def test_the_fence_is_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     assert fence(monkeypatch, [], 0, "").level == OK
-    assert fence(monkeypatch, ["eth0"], 0, "udp dport 7667 drop").level == OK
+    assert fence(monkeypatch, ["eth0"], 0, nft("udp dport 7667 drop")).level == OK
     open_port = fence(monkeypatch, ["eth0"], 0, "")
     assert open_port.level == WARNING and "udp dport 7667" in open_port.cure
-    asked_of_root = fence(monkeypatch, ["eth0"], 1000, "udp dport 7667 drop")
-    assert asked_of_root.level == WARNING and asked_of_root.cure.startswith("sudo deixis doctor")
+    asked_of_root = fence(monkeypatch, ["eth0"], 1000, nft("udp dport 7667 drop"))
+    assert asked_of_root.level == WARNING and asked_of_root.cure == f"sudo {LAUNCHER} doctor -l '{URL}'"
 
 
-def test_interfaces_that_are_up_are_found() -> None:
-    names = {name for _, name in socket.if_nameindex()}
-    assert set(network._interfaces_to_others()) <= names - {"lo"}
+def test_interfaces_that_are_up_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
+        lo = network._flags(asked, "lo")
+        assert lo & network._IFF_LOOPBACK and network._flags(asked, "none-such") == 0
+    flags = {"lo": lo | network._IFF_UP, "eth0": network._IFF_UP, "eth1": 0}
+    monkeypatch.setattr(socket, "if_nameindex", lambda: list(enumerate(flags)))
+    monkeypatch.setattr(network, "_flags", lambda _, name: flags[name])
+    assert network._interfaces_to_others() == ["eth0"]
 
 
 def test_cameras_that_are_there_missing_and_in_use(tmp_path: Path) -> None:
-    assert [f.level for f in machine.cameras(None, tmp_path)] == [OK]
-    [missing] = machine.cameras(str(tmp_path / "video0"), tmp_path)
-    assert missing.level == PROBLEM and "video0" in missing.text
+    wanted = {str(tmp_path / "video0"): Path("my.yaml")}
+    assert [f.level for f in machine.cameras({}, tmp_path)] == [OK]
+    [missing] = machine.cameras(wanted, tmp_path)
+    assert missing.level == PROBLEM and "video0" in missing.text and "my.yaml" in missing.text
     (tmp_path / "video0").touch()
-    assert [f.level for f in machine.cameras(str(tmp_path / "video0"), tmp_path)] == [OK]
+    assert [f.level for f in machine.cameras(wanted, tmp_path)] == [OK]
     with (tmp_path / "video0").open("rb"):
-        [used] = machine.cameras(None, tmp_path)
+        [used] = machine.cameras({}, tmp_path)
     assert used.level == WARNING and f"pid {os.getpid()}" in used.text
+
+
+@pytest.mark.parametrize("program", ["camera-driver", "stereo-driver", "calibrator"])
+def test_a_camera_that_our_own_programs_use_is_in_order(program: str, tmp_path: Path,
+                                                        monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "video0").touch()
+    monkeypatch.setattr(machine, "command_name", lambda pid: f"deixis-{program} pid {pid}")
+    with (tmp_path / "video0").open("rb"):
+        [used] = machine.cameras({}, tmp_path)
+    assert used.level == OK and f"in use by deixis-{program}" in used.text
 
 
 def test_a_camera_of_others_is_a_problem(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "video0").touch()
     monkeypatch.setattr(os, "access", lambda *_: False)  # root may open everything
-    [finding] = machine.cameras(None, tmp_path)
+    [finding] = machine.cameras({}, tmp_path)
     assert finding.level == PROBLEM and "usermod -aG video" in finding.cure
 
 
@@ -240,11 +299,30 @@ def test_modules_are_compared_with_those_that_are_tested(monkeypatch: pytest.Mon
     monkeypatch.setattr(installation, "_requirements", lambda: {"lcm": "0.0.1"})
     [other] = installation.python(layout.find())
     assert other.level == WARNING and "tested is 0.0.1" in other.text
-    monkeypatch.setattr(installation, "_requirements", lambda: {"PyYAML-no": "1"})
-    assert installation.python(layout.find())[0].level == WARNING  # One that only tests need.
-    monkeypatch.setattr(installation, "_NEEDED", ("PyYAML-no",))
-    [missing] = installation.python(layout.find())
-    assert missing.level == PROBLEM and missing.cure == "scripts/setup"
+
+
+@pytest.mark.parametrize(("lacks", "is_installed", "level", "words"), [
+    ("numpy", False, PROBLEM, "the module numpy, for the front end, is missing"),
+    ("mcap", False, WARNING, "the module mcap, for `deixis export`, is missing"),
+    ("mcap", True, WARNING, "the module mcap, for `deixis export`, is missing"),
+    ("pytest", False, WARNING, "the module pytest, for tests and figures, is missing"),
+    ("pytest", True, OK, "lists for: `deixis export`, the front end")])
+def test_who_needs_a_module_that_is_missing_is_told(lacks: str, is_installed: bool, level: str,
+                                                    words: str,
+                                                    monkeypatch: pytest.MonkeyPatch) -> None:
+    requirements = installation._requirements()
+
+    def version(name: str) -> str:
+        if name == lacks:
+            raise importlib.metadata.PackageNotFoundError
+        return requirements[name]
+
+    monkeypatch.setattr(importlib.metadata, "version", version)
+    where = layout.find()
+    [finding] = installation.python(replace(where, repository=None) if is_installed else where)
+    assert finding.level == level and words in finding.text
+    assert (level == OK) or finding.cure.endswith(f"{lacks}=={requirements[lacks]}" if is_installed
+                                                  else "scripts/setup")
 
 
 def test_a_missing_recorder_is_a_problem(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -267,7 +345,7 @@ def test_messages_that_a_service_refuses_are_told(before: int, after: int, level
                     status("tracker", ("CAMERA",), wrong=after))
     [finding] = services.types(traffic, COMMANDS)
     assert finding.level == level and f"tracker has refused {after} messages" in finding.text
-    assert finding.cure == f"deixis echo CAMERA --count 5 -l '{URL}'"
+    assert finding.cure == f"{LAUNCHER} echo CAMERA --count 5 -l '{URL}'"
 
 
 def test_messages_that_a_service_misses_are_told() -> None:
@@ -280,8 +358,8 @@ def test_messages_that_a_service_misses_are_told() -> None:
 
 def test_a_service_from_before_the_buffer_was_raised_is_told() -> None:
     traffic = heard(status("tracker", receive_buffer_bytes=212_992))
-    [finding] = services.loss(traffic, 4_194_304, CommandLines(URL, Path("my system.yaml")))
-    assert finding.cure == "deixis restart tracker --system 'my system.yaml'"
+    [finding] = services.loss(traffic, 4_194_304, CommandLines(LAUNCHER, URL, Path("my system.yaml")))
+    assert finding.cure == f"{LAUNCHER} restart tracker --system 'my system.yaml'"
 
 
 def test_a_service_of_another_version_is_a_problem() -> None:
@@ -290,18 +368,21 @@ def test_a_service_of_another_version_is_a_problem() -> None:
     assert not services.versions(heard(status("tracker")), COMMANDS)
 
 
-@pytest.mark.parametrize(("settings", "device"), [
-    ({}, "/dev/video0"), ({"source.path": "3"}, "/dev/video3"),
-    ({"source.path": "/dev/front"}, "/dev/front"), ({"source.kind": "video"}, None)])
-def test_the_camera_that_is_asked_for_is_read_from_the_configuration(
-        bench: Bench, settings: dict[str, str], device: str | None, repository: Path) -> None:
-    from deixis_frontend.supervision import system_file
-
-    bench.write({"eye": {"program": "deixis-camera-driver", "set": settings,
-                         "config": str(repository / "config" / "camera_driver.yaml")}},
-                start=["eye"])
+@pytest.mark.parametrize(("driver", "settings", "devices"), [
+    ("camera", {}, ["/dev/video0"]), ("camera", {"source.path": "3"}, ["/dev/video3"]),
+    ("camera", {"source.path": "/dev/front"}, ["/dev/front"]), ("camera", {"source.kind": "video"}, []),
+    ("stereo", {}, ["/dev/video0", "/dev/video2"]),
+    ("stereo", {"source.kind": "side_by_side"}, ["/dev/video0"]),
+    ("stereo", {"source.left.kind": "video", "source.right.path": "7"}, ["/dev/video7"]),
+    ("stereo", {"source.kind": "kinect_channel"}, [])])
+def test_cameras_that_are_asked_for_are_read_from_the_configuration(
+        bench: Bench, driver: str, settings: dict[str, str], devices: list[str],
+        repository: Path) -> None:
+    file = repository / "config" / f"{driver}_driver.yaml"
+    bench.write({"eye": {"program": f"deixis-{driver}-driver", "set": settings,
+                         "config": str(file)}}, start=["eye"])
     system = system_file.load(bench.system_file)
-    assert services.wanted_camera(system, layout.find()) == device
+    assert wanted_cameras(system, layout.find()) == dict.fromkeys(devices, file)
 
 
 def test_a_check_that_cannot_look_is_a_problem() -> None:

@@ -16,7 +16,7 @@ import pytest
 import yaml
 from deixis import hand_t, hand_tracks_t
 from deixis_lcm import decoding, images
-from front_end import deixis, deixis_beside, speaking, write_log
+from front_end import deixis, deixis_beside, speaking, status, write_log
 from test_types import STRUCTS, Filler
 
 from deixis_frontend.listening import fields, text_forms
@@ -153,6 +153,22 @@ def test_names_cannot_move_the_cursor(tmp_path: Path) -> None:
         assert "A\\x1b[2J" in result.stdout.replace("\\\\", "\\")
         assert "B\\x1b[2J: type not known" in result.stderr
         assert not any(c in result.stdout + result.stderr for c in "\x1b\x9b")
+
+
+@pytest.mark.parametrize(("command", "channels", "code"), [
+    (("export", "--force", "--mcap"), "nope", 1), (("export", "--force", "--mcap"), "G.*", 1),
+    (("export", "--force", "--mcap"), ".*", 0), (("replay",), "nope", 1)])
+def test_names_of_a_log_cannot_move_the_cursor_either(
+        url: str, tmp_path: Path, command: tuple[str, ...], channels: str, code: int) -> None:
+    log = write_log(tmp_path / "x.lcmlog", [
+        (0, "G\x1b[2J", b"abcdefgh"), (0, "A", status("one").encode()),
+        (0, "D\x1b[2J", status("one").encode()[:-1])])
+    name, *output = command
+    more = [*output, str(tmp_path / "out.mcap")] if output else []
+    result = deixis(url, name, log, *more, "--channels", channels)
+    assert result.returncode == code, result.stderr
+    assert "\\x1b[2J" in result.stdout + result.stderr
+    assert "\x1b" not in result.stdout + result.stderr
 
 
 def test_noise_on_many_channels_is_told_in_few_words(tmp_path: Path) -> None:

@@ -55,6 +55,11 @@ def test_says_when_there_is_nothing_to_measure(tmp_path: Path) -> None:
     assert "Traceback" not in done.stderr
 
 
+def test_every_zeroth_frame_is_wrong_usage(tmp_path: Path) -> None:
+    done = _evaluate("--data", str(tmp_path), "--every", "0")
+    assert done.returncode == 2 and "--every" in done.stderr
+
+
 def test_names_the_setting_that_is_wrong(tmp_path: Path) -> None:
     _write_pair(tmp_path)
     done = _evaluate("--data", str(tmp_path), "--set", "matcher.disparity.block_px=4")

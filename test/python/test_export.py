@@ -423,6 +423,17 @@ def test_times_that_cannot_be_are_passed_over(tmp_path: Path,
     assert Opened(tmp_path / "out.mcap").only("/A/log").message == "degraded"
 
 
+def test_utimes_that_fit_into_no_file_are_passed_over(
+        export: Export, capsys: pytest.CaptureFixture[str]) -> None:
+    late = status(1)
+    late.utime = 200_000_000_000_000_000  # of the year 8307: too many nanoseconds for 64 bits
+    bundle = images.bundle(-5, [(bot_core.images_t.LEFT, images.from_jpeg(JPEG, 640, 480, UTIME))])
+    opened = export(("A", late), ("STEREO", bundle), ("A", status(2)))
+    assert opened.only("/A/log").message == "degraded" and list(opened.messages) == ["/A/log"]
+    said = capsys.readouterr().err
+    assert "2 messages were passed over" in said and "STEREO" in said and "utime -5 us" in said
+
+
 @pytest.mark.parametrize(("content", "fault"), [
     (None, "No such file or directory"), (b"", "is empty"), (b"hello", "is no LCM log"),
     (b"\xed\xa1\xda\x01", "holds no whole message")])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import signal
 import socket
 import subprocess
@@ -123,7 +124,30 @@ def test_nothing_is_left_when_it_is_killed(bench: Bench, notices: socket.socket)
         assert becomes_true(lambda: not is_alive(pid), _SECONDS)
 
 
-def test_an_error_of_its_own_ends_it(capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("after", [0.5, 0.0])
+def test_it_goes_on_when_nobody_reads_what_it_shows(bench: Bench, notices: socket.socket,
+                                                    after: float) -> None:
+    bench.write({"a": {"set": {"ready_after_s": after, "say": "hello"}}})
+    reader, writer = os.pipe()
+    process = bench.begin("start", "--foreground", output=writer,
+                          NOTIFY_SOCKET=str(bench.folder / "notify"))
+    try:
+        os.close(writer)
+        if after:
+            os.close(reader)  # Before any service is ready; else when all are.
+        await_ready(notices)
+        if not after:
+            os.close(reader)
+        assert bench.deixis("restart", "a").returncode == 0
+        assert process.poll() is None and bench.service("a")["state"] == "running"
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(_SECONDS) == 0
+    finally:
+        process.kill()
+        process.wait()
+
+
+def test_an_error_of_its_own_ends_it(capfd: pytest.CaptureFixture[str]) -> None:
     class Broken:
         def all_for(self, _: list[str]) -> list[str]:
             raise RuntimeError("broken")
@@ -136,7 +160,7 @@ def test_an_error_of_its_own_ends_it(capsys: pytest.CaptureFixture[str]) -> None
     foreground = Foreground([], print)
     asyncio.run(run(foreground))
     assert foreground.exit_code == 1
-    assert "error in the supervisor itself: RuntimeError('broken')" in capsys.readouterr().err
+    assert "error in the supervisor itself: RuntimeError('broken')" in capfd.readouterr().err
 
 
 class _Closed:

@@ -7,18 +7,22 @@ import signal
 import statistics
 import struct
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from deixis import hand_tracks_t, objects_t
 from front_end import deixis, deixis_beside, speaking, status, write_log
 
-from deixis_frontend import layout
-from deixis_frontend.listening.ages import ChannelAge
-from deixis_frontend.listening.rates import LARGEST_GAP, ChannelRate, Intervals, Loss
+from deixis_frontend import layout, lcm_url
+from deixis_frontend.listening.ages import KEPT, ChannelAge
+from deixis_frontend.listening.decoder import Decoder
+from deixis_frontend.listening.meter import Meter
+from deixis_frontend.listening.rates import (
+    HEADER, LARGEST_GAP, MOST_PUBLISHERS, ChannelRate, Intervals, Loss)
 from deixis_frontend.listening.source import Arrival
 from deixis_frontend.listening.traffic import Traffic
-from deixis_frontend.listening.udp_senders import Senders, channel_of
+from deixis_frontend.listening.udp_senders import MOST_SENDERS, Senders, channel_of
 
 NOWHERE = "memq://"  # a log is read without a bus
 
@@ -77,6 +81,53 @@ def test_the_window_forgets_and_shows_silence() -> None:
     assert (channel, hertz, mean) == ("A", "10.00", "100.00")
     assert rate.recent_row(2_500_000)[1] == "5.00"  # Half of the second before was silent.
     assert rate.recent_row(9_000_000)[1] == "0.00"
+
+
+def test_no_more_than_the_window_is_kept() -> None:
+    rate = ChannelRate("A", window_s=1.0)
+    for number in range(1000):
+        rate.add(number * 100_000, 1)
+    assert len(rate._recent) == 11
+
+
+def test_ages_are_of_all_messages_however_many() -> None:
+    ages = ChannelAge("A", 5.0)
+    for age_us in (900_000, *(10_000,) * KEPT, 20_000, 1_000):
+        ages.add(10**12, 10**12 - age_us)
+    _, least, mean, p99, most, messages = ages.whole_row()
+    assert (least, most, p99, messages) == ("1.00", "900.00", "10.00", "100003")
+    assert mean == "10.01"
+    assert ages.recent_row(10**12)[4] == "20.00"
+
+
+def test_noise_does_not_fill_the_memory() -> None:
+    loss, senders = Loss(), Senders()
+    for number in range(10_000):
+        loss.add(number, f"noise {number}")
+        loss.add(number // 100 * 3 if number % 100 == 0 else None, "service")
+        senders.add("A", ("h", number), 0.0)
+    assert len(loss._last) == MOST_PUBLISHERS and loss.lost == 99 * 2
+    assert len(senders.by_channel["A"]) == len(senders.at_once("A")) == MOST_SENDERS
+
+
+def test_after_a_pause_there_is_one_table(monkeypatch: pytest.MonkeyPatch,
+                                          capsys: pytest.CaptureFixture[str]) -> None:
+    class Paused:
+        """A message, then nothing, while a hundred seconds have passed."""
+
+        url, name = lcm_url.parse(NOWHERE), NOWHERE
+
+        def __iter__(self) -> Iterator[Arrival | None]:
+            yield Arrival(1, "A", hands(0))
+            later = time.monotonic() + 100.0
+            monkeypatch.setattr(time, "monotonic", lambda: later)
+            yield from [None] * 50
+
+    def measure(channels: dict[str, ChannelRate], arrival: Arrival, _: object) -> None:
+        channels[arrival.channel] = ChannelRate(arrival.channel, 5.0)
+
+    Meter(Decoder(layout.find()), HEADER, measure).listen(Paused())
+    assert capsys.readouterr().out.count("channel ") == 1
 
 
 def test_rates_of_a_log(tmp_path: Path) -> None:

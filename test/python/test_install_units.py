@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import configparser
 import getpass
+import io
 import shutil
 import subprocess
 import sys
@@ -157,6 +158,35 @@ def test_units_are_taken_away_again(tmp_path: Path, capsys: Said) -> None:
     assert not [path for path in (tmp_path / "own").rglob("*") if path.is_file()]
     assert main(["install-units", "--user", "--yes", "--uninstall"]) == 0
     assert "there are no units of the system 'deixis'" in capsys.readouterr().out
+
+
+def test_the_environment_is_taken_away_whatever_the_bus_is_now(tmp_path: Path,
+                                                               capsys: Said) -> None:
+    assert main(["install-units", "--user", "--yes", "-l", _URL]) == 0
+    assert main(["install-units", "--user", "--yes", "--uninstall"]) == 0
+    assert ": left" not in capsys.readouterr().out
+    assert not [path for path in (tmp_path / "own").rglob("*") if path.is_file()]
+
+
+def test_units_that_cannot_be_stopped_are_left(tmp_path: Path, capsys: Said) -> None:
+    assert main(["install-units", "--user", "--yes", "-l", _URL]) == 0
+    (tmp_path / "bin" / "systemctl").write_text("#!/bin/sh\necho no bus >&2; exit 1\n",
+                                                encoding="ascii")
+    assert main(["install-units", "--user", "--yes", "-l", _URL, "--uninstall"]) == 1
+    said = capsys.readouterr().err
+    assert "failed: no bus" in said and "nothing was removed" in said
+    assert (tmp_path / "own" / "systemd" / "user" / "deixis.service").exists()
+
+
+@pytest.mark.parametrize(("answer", "code"), [("", 1), ("n\n", 1), ("\n", 1), ("y\n", 0)])
+def test_only_yes_is_an_agreement(tmp_path: Path, capsys: Said, answer: str, code: int,
+                                  monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = io.StringIO(answer)  # Nothing: Ctrl-D.
+    monkeypatch.setattr(terminal, "isatty", lambda: True)
+    monkeypatch.setattr(sys, "stdin", terminal)
+    assert main(["install-units", "--user", "-l", _URL]) == code
+    assert "Write these files? [y/N]" in capsys.readouterr().err
+    assert (tmp_path / "own").exists() == (code == 0)
 
 
 def test_what_was_changed_or_is_somebody_elses_is_left(tmp_path: Path, capsys: Said) -> None:

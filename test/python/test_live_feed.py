@@ -1,13 +1,18 @@
-"""What `evaluate live` plays: a clip, or a stereo pair with its calibration."""
+"""What `evaluate live` plays: a clip, or a stereo pair with its calibration; and who must live."""
 
 from __future__ import annotations
 
+import os
+import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from deixis_frontend import layout, lcm_url
 from deixis_frontend.errors import UserError
-from deixis_frontend.evaluation.live import camera_feed, stereo_feed
+from deixis_frontend.evaluation import live
+from deixis_frontend.evaluation.live import CONSUMERS, camera_feed, stereo_feed
 
 PARTS = ("left.mp4", "right.mp4", "intrinsics.yml", "extrinsics.yml")
 
@@ -37,3 +42,24 @@ def test_what_a_folder_lacks_is_named(tmp_path: Path, missing: str) -> None:
             (tmp_path / part).touch()
     with pytest.raises(UserError, match=f"lacks {missing}"):
         stereo_feed(tmp_path, 30.0)
+
+
+def test_figures_of_a_service_that_has_died_are_none(url: str, tmp_path: Path) -> None:
+    for name in (*CONSUMERS, "camera_driver"):
+        program = tmp_path / f"deixis-{name.replace('_', '-')}"
+        program.write_text(f"#!/bin/sh\nPYTHONPATH={os.pathsep.join(sys.path)} exec {sys.executable}"
+                           f" {Path(__file__).with_name('fake_service.py')} --set service={name}"
+                           f" --set say=mine \"$@\"\n", encoding="ascii")
+        program.chmod(0o755)
+    clip = tmp_path / "clip.mp4"
+    clip.touch()
+    chain = live._Chain(replace(layout.find(), programs=tmp_path), tmp_path, lcm_url.parse(url),
+                        camera_feed(clip, 30.0))
+    try:
+        chain.start_consumers()
+        chain.start_driver()
+        chain._processes["hand_tracker"].kill()
+        with pytest.raises(UserError, match="^hand_tracker has ended: mine$"):
+            chain.measure(0.2)
+    finally:
+        chain.stop()

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from bench import becomes_true, is_alive, killed_after
 
 from deixis_frontend import layout as layouts
 from deixis_frontend.errors import UserError
 from deixis_frontend.layout import Layout
-from deixis_frontend.programs import run_program
+from deixis_frontend.programs import program_lines, run_program
 
 
 @pytest.fixture
@@ -39,6 +43,41 @@ def test_a_hint_below_the_error_is_passed_over(layout: Layout) -> None:
                           " information.' >&2; exit 2")
     with pytest.raises(UserError, match="^deixis-x failed: --x: unknown option$"):
         run_program(layout, "deixis-x")
+
+
+def test_lines_come_while_the_program_runs_however_much_it_warns(layout: Layout) -> None:
+    go_on = layout.programs / "go_on"
+    write_program(layout, f"echo one; until test -e {go_on}; do sleep 0.02; done;"
+                          " head -c 300000 /dev/zero | tr '\\0' '\\n' >&2; echo 'a warning' >&2;"
+                          " echo two")
+    lines = program_lines(layout, "deixis-x")
+    assert next(lines) == "one\n"
+    go_on.touch()
+    assert list(lines) == ["two\n"]
+
+
+def test_a_program_ends_when_its_lines_are_not_wanted_any_more(layout: Layout) -> None:
+    write_program(layout, "echo $$; exec sleep 60")
+    lines = program_lines(layout, "deixis-x")
+    pid = int(next(lines))
+    lines.close()
+    assert not is_alive(pid)
+
+
+def test_a_program_ends_with_the_front_end(layout: Layout) -> None:
+    write_program(layout, "echo $$; exec sleep 60")
+    script = ("import sys; from dataclasses import replace; from pathlib import Path;"
+              " from deixis_frontend import layout, programs;"
+              " where = replace(layout.find(), programs=Path(sys.argv[1]));"
+              " [print(line, flush=True) for line in programs.program_lines(where, 'deixis-x')]")
+    with subprocess.Popen([sys.executable, "-c", script, layout.programs], text=True,
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+                          stdout=subprocess.PIPE) as front_end:
+        assert front_end.stdout is not None
+        with killed_after(30.0, front_end):
+            pid = int(front_end.stdout.readline())
+        front_end.kill()
+    assert becomes_true(lambda: not is_alive(pid))
 
 
 def test_the_users_configuration_folder_goes_first(

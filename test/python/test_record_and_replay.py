@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -21,20 +20,8 @@ from front_end import deixis, speaking
 @contextmanager
 def talking(url: str) -> Iterator[None]:
     """Messages on A and B, 50 a second each, while the block runs."""
-    bus, over = lcm.LCM(url), threading.Event()
-
-    def talk() -> None:
-        while not over.wait(0.02):
-            bus.publish("A", b"a" * 1000)
-            bus.publish("B", b"b" * 1000)
-
-    thread = threading.Thread(target=talk)
-    thread.start()
-    try:
+    with speaking(url, lambda _: ("A", b"a" * 1000), lambda _: ("B", b"b" * 1000)):
         yield
-    finally:
-        over.set()
-        thread.join()
 
 
 @contextmanager
@@ -174,15 +161,31 @@ def test_the_logger_ends_when_the_recording_is_killed(url: str, tmp_path: Path) 
         assert becomes_true(lambda: not loggers_of(output))
 
 
-def test_says_when_the_disk_is_full_and_keeps_what_there_was_before(url: str, log: Path) -> None:
-    logger = log.parent / "bin" / "lcm-logger"
+def with_logger(folder: Path, script: str) -> dict[str, str]:
+    """The environment with a stand-in for lcm-logger, which writes to its file, then does this."""
+    logger = folder / "bin" / "lcm-logger"
     logger.parent.mkdir()
-    logger.write_text('#!/bin/sh\nfor last; do :; done\necho some >"$last"\n'
-                      'echo "write: No space left on device" >&2; exit 1\n', encoding="ascii")
+    logger.write_text(f'#!/bin/sh\nfor last; do :; done\necho some >"$last"\n{script}\n',
+                      encoding="ascii")
     logger.chmod(0o755)
+    return {"PATH": f"{logger.parent}:{os.environ['PATH']}"}
+
+
+def test_says_how_many_messages_a_slow_disk_has_cost(url: str, tmp_path: Path) -> None:
+    said = "Can't write to log fast enough.  Dropped"  # As lcm-logger does, unless it is --quiet.
+    environment = with_logger(tmp_path, f"""case "$*" in *--quiet*) exec >/dev/null;; esac
+        for _ in $(seq 2000); do echo "Summary: log ti:   1sec Events: 42 (  0 MB )"; done
+        echo "{said} 30 packets"; echo "{said} 1 packet\"""")
+    output = tmp_path / "x.lcmlog"
+    result = deixis(url, "record", "--seconds", 5, "--output", output, **environment)
+    assert result.returncode == 0 and output.exists()
+    assert "at least 31 messages were not recorded" in result.stderr
+
+
+def test_says_when_the_disk_is_full_and_keeps_what_there_was_before(url: str, log: Path) -> None:
+    environment = with_logger(log.parent, 'echo "write: No space left on device" >&2; exit 1')
     before = log.read_bytes()
-    result = deixis(url, "record", "--force", "--seconds", 5, "--output", log,
-                    PATH=f"{logger.parent}:{os.environ['PATH']}")
+    result = deixis(url, "record", "--force", "--seconds", 5, "--output", log, **environment)
     assert result.returncode == 1
     assert "the disk is full" in result.stderr
     [part] = log.parent.glob("in.lcmlog.*.part")

@@ -14,7 +14,7 @@ from pathlib import Path
 import matplotlib.image
 import numpy as np
 import pytest
-from bench import becomes_true
+from bench import becomes_true, killed_after
 from spy_screen import (Spy, command, driven_java, environment, places, read_screen,
                         virtual_display)
 
@@ -260,10 +260,11 @@ def test_it_starts_with_the_real_java_and_ends_when_told(display: str, url: str,
     try:
         assert process.stdout is not None
         said = []
-        for line in process.stdout:
-            said.append(line.strip())
-            if line.strip().startswith("pictures: bot_core.image_t"):
-                break
+        with killed_after(PATIENCE_S, process):
+            for line in process.stdout:
+                said.append(line.strip())
+                if line.strip().startswith("pictures: bot_core.image_t"):
+                    break
         assert "Found 2 plugins" in said
         assert not [line for line in said if "Error" in line]
     finally:

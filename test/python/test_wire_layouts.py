@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -25,13 +26,16 @@ struct whole_t
 @pytest.fixture
 def generate(repository: Path, tmp_path: Path):
     """Runs the generator as the build does, with the system's own Python where there is one."""
+    own = Path("/usr/bin/python3")
+    python = own if own.exists() else sys.executable
+
     def run(*texts: str) -> tuple[subprocess.CompletedProcess[str], str]:
         files = [tmp_path / f"own_{text.split('struct ')[1].split()[0]}.lcm" for text in texts]
         for file, text in zip(files, texts, strict=True):
             file.write_text(text, encoding="ascii")
         output = tmp_path / "made" / "table.cpp"
         done = subprocess.run(
-            ["/usr/bin/python3", "-m", "deixis_schema.wire_layouts", "--output", output, *files],
+            [python, "-m", "deixis_schema.wire_layouts", "--output", output, *files],
             capture_output=True, text=True, check=False,
             env={**os.environ, "PYTHONPATH": str(repository / "scripts/python")})
         return done, output.read_text(encoding="utf-8") if output.exists() else ""

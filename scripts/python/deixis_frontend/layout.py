@@ -33,6 +33,11 @@ class Layout:
         cure = "run scripts/build" if self.repository else "install Deixis again"
         raise UserError(f"program {name} not found in {path.parent}: {cure}")
 
+    @property
+    def launcher(self) -> Path:
+        """The `deixis` of this checkout or installation."""
+        return (self.repository / "scripts" if self.repository else self.programs) / "deixis"
+
     def jar(self, name: str) -> Path:
         """The path of a Java archive that the build makes; raises UserError without it."""
         path = self.jars / name

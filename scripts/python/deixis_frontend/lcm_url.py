@@ -53,6 +53,11 @@ class LcmUrl:
             return self
         return replace(self, parameters=(*self.parameters, (key, str(value))))
 
+    def without(self, key: str) -> LcmUrl:
+        """The same URL with `key` left to its default."""
+        return replace(self, parameters=tuple(
+            parameter for parameter in self.parameters if parameter[0] != key))
+
     def with_receive_buffer(self) -> LcmUrl:
         """The same URL asking for a receive buffer that pictures fit into (udpm only)."""
         if self.provider != "udpm":

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import signal
 import subprocess
+import tempfile
+from collections.abc import Iterator
 
 from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
@@ -14,13 +16,25 @@ _HINT = "Run with --help"  # stands below what was wrong with a command line
 
 def run_program(layout: Layout, name: str, *arguments: str) -> str:
     """What the program wrote to stdout; raises UserError with its last line when it fails."""
-    done = subprocess.run([str(layout.program(name)), *arguments], env=layout.environment(),
-                          capture_output=True, text=True, errors="replace", check=False,
-                          preexec_fn=end_with_parent(signal.SIGTERM))
-    if done.returncode != 0:
-        reason = last_words(done.stderr) or f"exit code {done.returncode}"
-        raise UserError(f"{name} failed: {reason}")
-    return done.stdout
+    return "".join(program_lines(layout, name, *arguments))
+
+
+def program_lines(layout: Layout, name: str, *arguments: str) -> Iterator[str]:
+    """The same line by line, as they come; the program is ended when they are not read to the end."""
+    with tempfile.TemporaryFile("w+", errors="replace") as said:  # Whatever its length: not a pipe.
+        with subprocess.Popen([str(layout.program(name)), *arguments], env=layout.environment(),
+                              stdout=subprocess.PIPE, stderr=said, text=True, errors="replace",
+                              preexec_fn=end_with_parent(signal.SIGTERM)) as program:
+            assert program.stdout is not None
+            try:
+                yield from program.stdout
+            except BaseException:
+                program.terminate()
+                raise
+        if program.returncode != 0:
+            said.seek(0)
+            reason = last_words(said.read()) or f"exit code {program.returncode}"
+            raise UserError(f"{name} failed: {reason}")
 
 
 def last_words(said: str) -> str:

@@ -14,11 +14,13 @@ import struct
 
 PACKAGES = ("deixis", "bot_core", "kinect", "geometry_msgs", "sensor_msgs", "std_msgs", "tf2_msgs")
 FINGERPRINT_BYTES = 8
+# The words by which services count what they drop for its bytes (common/messages/wire_check.h says what they mean).
+REASONS = ("wrong_type", "truncated", "trailing_bytes", "bad_length", "bad_string", "bad_boolean")
 _LOOP = re.compile(r"range\(self\.(\w+)\)")  # how generated code runs over arrays of structs and strings
 
 
 class DecodeError(ValueError):
-    """A message of a known type that does not fit it. `reason` is a word for counting: as C++ drops, by the same."""
+    """A message of a known type that does not fit it. `reason` is a word for counting, one of REASONS."""
 
     def __init__(self, reason, text):
         super().__init__(text)
@@ -51,7 +53,7 @@ def decode_as(message_type, data):
     stream = _BoundedBytes(data)
     try:
         message = message_type.decode(stream)
-        _require_lengths(message)
+        _require_honest_parts(message)
     except DecodeError as error:
         raise _fault(message_type, data, error.reason, f"does not decode: {error}") from None
     except ValueError:
@@ -60,10 +62,19 @@ def decode_as(message_type, data):
         raise _fault(message_type, data, "truncated", f"does not decode: {error}") from None
     if stream.tell() != len(data):
         raise _fault(message_type, data, "trailing_bytes", f"ends after {stream.tell()} of them")
-    # The generated code takes texts that end too early, and booleans that are neither 0 nor 1.
-    if message.encode() != bytes(data):
-        raise _fault(message_type, data, "bad_string", "has a text or a boolean that is no honest one")
+    _require_same_bytes(message, data)
     return message
+
+
+def _require_same_bytes(message, data):
+    """The generated code takes texts that end too early, and booleans that are neither 0 nor 1: DecodeError for them."""
+    encoded = message.encode()
+    if encoded == bytes(data):
+        return
+    given, written = next((pair for pair in zip(data, encoded) if pair[0] != pair[1]), (0, 0))
+    if written == 1 and given > 1:
+        raise _fault(type(message), data, "bad_boolean", f"has a boolean that is {given}")
+    raise _fault(type(message), data, "bad_string", "has a text that does not end with its NUL, or is no UTF-8")
 
 
 class _BoundedBytes(io.BytesIO):
@@ -75,28 +86,30 @@ class _BoundedBytes(io.BytesIO):
 
     def read(self, size=-1):
         if size < 0:
-            raise DecodeError("too_many", f"a length is {size}")
+            raise DecodeError("bad_length", f"a length is {size}")
         left = self._size - self.tell()
         if size > left:
             raise DecodeError("truncated", f"{size} bytes are to follow, {left} are left")
         if size == 0:
             self._empty_reads_left -= 1
             if self._empty_reads_left < 0:
-                raise DecodeError("too_many", "more elements than bytes")
+                raise DecodeError("truncated", "more elements than bytes")
         return super().read(size)
 
 
-def _require_lengths(message):
-    """DecodeError if an array of structs or strings has a length below 0, which generated code takes for none."""
+def _require_honest_parts(message):
+    """DecodeError for what generated code takes: arrays with a length below 0 for empty ones, texts with a NUL inside."""
     for name in _looped_lengths(type(message)):
         if getattr(message, name) < 0:
-            raise DecodeError("too_many", f"{name} is {getattr(message, name)}")
+            raise DecodeError("bad_length", f"{name} is {getattr(message, name)}")
     for name in message.__slots__:
         value = getattr(message, name)
         parts = value if isinstance(value, list) else [value]
         if parts and hasattr(parts[0], "_decode_one"):
             for part in parts:
-                _require_lengths(part)
+                _require_honest_parts(part)
+        elif parts and isinstance(parts[0], str) and any("\0" in text for text in parts):
+            raise DecodeError("bad_string", f"{name} has a NUL inside")
 
 
 @functools.lru_cache(maxsize=None)

@@ -123,7 +123,7 @@ void RequireWritable(const std::vector<fs::path>& paths, Existing existing) {
     const bool is_there = fs::exists(path, ignored);
     if (is_there && !fs::is_regular_file(path)) Refuse(path, "is no file: name another --output");
     if (is_there && existing == Existing::kKeep) {
-      Refuse(path, "is there already: name another --output, or give --replace");
+      Refuse(path, "is there already: name another --output, or give --force");
     }
     RequireFolder(path);
     // By trying: what the mode bits say holds neither for root nor for /proc.

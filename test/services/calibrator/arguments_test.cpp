@@ -28,13 +28,23 @@ TEST(CalibratorArguments, OfACamera) {
 TEST(CalibratorArguments, OfAStereoPairWithACharuco) {
   const auto parsed =
       Parse({"stereo", "--charuco", "7x5", "--square", "0.035", "--marker", "0.026", "--left",
-             "l1.png", "l2.png", "--right", "r1.png", "r2.png", "-o", "folder", "--force"});
+             "l1.png", "l2.png", "--right", "r1.png", "r2.png", "-o", "folder"});
   ASSERT_FALSE(parsed.exit_code);
   EXPECT_EQ(parsed.arguments.task, Task::kStereo);
   EXPECT_EQ(parsed.arguments.board.kind, BoardKind::kCharuco);
   EXPECT_EQ(parsed.arguments.feed.right.size(), 2u);
-  EXPECT_EQ(parsed.arguments.permissions.existing, Existing::kReplace);
-  EXPECT_TRUE(parsed.arguments.permissions.may_write_poor);
+}
+
+TEST(CalibratorArguments, ToReplaceIsNotToAcceptPoorResults) {
+  const auto permissions = [](const char* flag) {
+    return Parse(
+               {"camera", "--board", "9x6", "--square", "0.02", "--pictures", "a", "-o", "c", flag})
+        .arguments.permissions;
+  };
+  EXPECT_EQ(permissions("--force").existing, Existing::kReplace);
+  EXPECT_FALSE(permissions("--force").may_write_poor);
+  EXPECT_EQ(permissions("--accept-poor").existing, Existing::kKeep);
+  EXPECT_TRUE(permissions("--accept-poor").may_write_poor);
 }
 
 class WrongCalibratorArguments : public ::testing::TestWithParam<std::string> {};
@@ -57,6 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                       "camera --board 9x6 --square 0.02 --pictures a --source device:0 -o c",
                       "stereo --board 9x6 --square 0.02 --left a -o c",
                       "stereo --board 9x6 --square 0.02 --source device:0 -o c",
+                      "stereo --board 9x6 --square 0.02 --left a --right b --model fisheye -o c",
                       "camera --charuco 7x5 --square 0.02 --marker 0.03 --pictures a -o c",
                       "board --board 9x6 --square 0.02 --print b.doc"));
 

@@ -12,6 +12,7 @@ from deixis_frontend.commands.system_option import add_system, open_system
 from deixis_frontend.doctor import fixing, installation, machine, network, services
 from deixis_frontend.doctor.command_lines import CommandLines
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Check, Finding, examine
+from deixis_frontend.doctor.wanted_cameras import wanted_cameras
 from deixis_frontend.channel_patterns import any_of
 from deixis_frontend.layout import Layout
 from deixis_frontend.lcm_url import LcmUrl
@@ -36,14 +37,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """0 when there is no problem; warnings are none."""
     url, layout = lcm_url.choose(arguments.lcm_url), layouts.find()
+    commands = CommandLines(layout.launcher, url, arguments.system)
     report = _Report(is_quiet=arguments.json)
-    _examine_network(report, url, arguments)
+    _examine_network(report, commands, arguments)
     report.take("python", lambda: installation.python(layout))
     report.take("recorder", installation.recorder)
     clock = machine.ClockWatch()
-    report.take("system", lambda: _of_system(arguments, url, layout))
+    report.take("system", lambda: _of_system(arguments, commands, layout))
     if report.has_bus:
-        report.take("listening", lambda: _of_traffic(arguments, url, layout))
+        report.take("listening", lambda: _of_traffic(arguments, commands, layout))
     report.take("clock", clock.findings)
     report.conclude(url)
     return 1 if report.count(PROBLEM) else 0
@@ -88,38 +90,40 @@ class _Report:
             print(f"{self.count(OK)} ok, {warnings} warnings, {problems} problems")
 
 
-def _examine_network(report: _Report, url: LcmUrl, arguments: argparse.Namespace) -> None:
-    findings = _of_network(url)
+def _examine_network(report: _Report, commands: CommandLines,
+                     arguments: argparse.Namespace) -> None:
+    findings = _of_network(commands)
     if arguments.fix and fixing.fix(findings, is_agreed=arguments.yes):
-        findings = _of_network(url)
+        findings = _of_network(commands)
     for finding in findings:
         report.add(finding)
 
 
-def _of_network(url: LcmUrl) -> list[Finding]:
-    checks = {"bus": network.bus, "receive_buffer": network.receive_buffer,
-              "reach": network.reach, "fence": network.fence}
+def _of_network(commands: CommandLines) -> list[Finding]:
+    checks = {"bus": network.bus, "receive_buffer": network.receive_buffer, "reach": network.reach,
+              "fence": lambda url: network.fence(url, commands)}
     return [finding for name, check in checks.items()
-            for finding in examine(name, lambda check=check: check(url))]
+            for finding in examine(name, lambda check=check: check(commands.url))]
 
 
-def _of_system(arguments: argparse.Namespace, url: LcmUrl, layout: Layout) -> list[Finding]:
+def _of_system(arguments: argparse.Namespace, commands: CommandLines,
+               layout: Layout) -> list[Finding]:
     """Programs, disk, cameras and supervisor of the system file."""
     system, client = open_system(arguments)
     folders: list[Path] = [log_folder(system, layout), layout.state / "output"]
     return [finding for name, check in {
         "programs": lambda: installation.programs(layout, system),
         "disk": lambda: [finding for folder in folders for finding in machine.disk(folder)],
-        "camera": lambda: machine.cameras(services.wanted_camera(system, layout)),
-        "system": lambda: services.supervisor(client, system, url),
+        "camera": lambda: machine.cameras(wanted_cameras(system, layout)),
+        "system": lambda: services.supervisor(client, system, commands),
     }.items() for finding in examine(name, check)]
 
 
-def _of_traffic(arguments: argparse.Namespace, url: LcmUrl, layout: Layout) -> list[Finding]:
+def _of_traffic(arguments: argparse.Namespace, commands: CommandLines,
+                layout: Layout) -> list[Finding]:
     """What is heard on the bus, for some seconds."""
     traffic = Traffic(layout)
-    names = PublisherNames(listen(Live(url, any_of([]), arguments.seconds), traffic))
+    names = PublisherNames(listen(Live(commands.url, any_of([]), arguments.seconds), traffic))
     granted = network.granted_buffer(lcm_url.RECEIVE_BUFFER_BYTES)
-    commands = CommandLines(url, arguments.system)
     return [*services.publishers(traffic, names, commands), *services.types(traffic, commands),
             *services.loss(traffic, granted, commands), *services.versions(traffic, commands)]

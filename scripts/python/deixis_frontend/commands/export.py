@@ -14,6 +14,7 @@ from deixis_frontend.errors import UserError
 from deixis_frontend.interrupts import end_as_by_ctrl_c
 from deixis_frontend.lcm_tools import require_log
 from deixis_frontend.output_files import UnfinishedFile
+from deixis_frontend.printable import printable
 from deixis_frontend.progress_bar import ProgressBar
 
 DEFAULT_BUS = "none, for none is needed"
@@ -48,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
         output.keep()
     print(f"wrote {exported.written} messages ({size_mb:.1f} MB) to {arguments.mcap}")
     for words, count in sorted(exported.left_out.items()):
-        print(f"left out: {count} of {words}")
+        print(f"left out: {count} of {printable(words)}")
     return 0
 
 
@@ -57,14 +58,14 @@ def _tell_faults(log: Path, exported: Any) -> None:
         print(f"deixis: {log}: {exported.damage}", file=sys.stderr)
     if exported.refused:
         print(f"deixis: {log}: {exported.refused} messages were passed over, the last:"
-              f" {exported.last_refusal}", file=sys.stderr)
+              f" {printable(exported.last_refusal)}", file=sys.stderr)
 
 
 def _why_nothing(arguments: argparse.Namespace, exported: Any) -> str:
     if exported.read:
-        kinds = ", ".join(sorted(exported.left_out)) or "what does not decode"
+        kinds = ", ".join(map(printable, sorted(exported.left_out))) or "what does not decode"
         return f"nothing was written: {arguments.log} has nothing to show, only {kinds}"
     if not exported.other_channels:
         return f"nothing was written: {arguments.log} holds no whole message"
     return (f"nothing was written: no channel is '{arguments.channels.pattern}': {arguments.log}"
-            f" has {', '.join(sorted(exported.other_channels))}")
+            f" has {', '.join(map(printable, sorted(exported.other_channels)))}")

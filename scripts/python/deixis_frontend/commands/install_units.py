@@ -17,6 +17,7 @@ from deixis_frontend.deployment.systemd_units import Installation
 from deixis_frontend.deployment.unit_files import UnitFile
 from deixis_frontend.errors import UserError
 from deixis_frontend.layout import Layout
+from deixis_frontend.questions import is_wanted
 from deixis_frontend.supervision import system_file
 
 _SYSTEM_FOLDER = Path("/etc/systemd/system")
@@ -55,10 +56,9 @@ def _installation(arguments: argparse.Namespace, layout: Layout) -> Installation
     url = lcm_url.choose(arguments.lcm_url)
     if url.provider not in ("udpm", "tcpq"):
         raise UserError(f"LCM URL '{url}' leads to no other process: name a bus with -l")
-    launcher = layout.repository / "scripts" if layout.repository else layout.programs
     name = "deixis" if system.name == "deixis" else f"deixis-{system.name}"
     return Installation(
-        system=system, names=tuple(arguments.names), launcher=launcher / "deixis", url=url,
+        system=system, names=tuple(arguments.names), launcher=layout.launcher, url=url,
         environment=_environment(layout),
         environment_file=_environment_folder(arguments.user) / f"{name}.env",
         run_as=None if arguments.user else _user(arguments.run_as))
@@ -95,7 +95,7 @@ def _files(installation: Installation, output: Path | None) -> list[UnitFile]:
     settings = installation.environment_file
     files = [UnitFile(folder / installation.unit, systemd_units.supervisor_unit(installation)),
              UnitFile(output / settings.name if output else settings,
-                      systemd_units.environment_text(installation), is_users=True)]
+                      unit_files.sealed(systemd_units.environment_text(installation)), is_users=True)]
     if not is_user:
         files.append(UnitFile(folder / installation.bus_unit, systemd_units.bus_unit(installation)))
     return files
@@ -153,10 +153,11 @@ def _uninstall(installation: Installation, files: list[UnitFile],
     for file in present:
         print(f"{'remove' if file.is_ours() else 'leave'} {file.path}")
     _ask("Stop the units and remove these files?", arguments)
-    if units:
-        unit_files.systemctl(["disable", "--now", *units], is_user=arguments.user)
+    if units and not unit_files.systemctl(["disable", "--now", *units], is_user=arguments.user):
+        raise UserError("nothing was removed: a unit whose file is gone could not be stopped any"
+                        " more: stop it, then try again")
     for path in unit_files.remove(present):
-        print(f"{path} was changed by somebody: left")
+        print(f"{path} is not as `deixis install-units` wrote it: left")
     unit_files.systemctl(["daemon-reload"], is_user=arguments.user)
     return 0
 
@@ -173,5 +174,5 @@ def _ask(question: str, arguments: argparse.Namespace) -> None:
     if not sys.stdin.isatty():
         raise UserError("nothing was changed: there is nobody to ask: give --yes, or --output DIR"
                         " to look at the files")
-    if input(f"{question} [y/N] ").strip().lower() not in ("y", "yes"):
+    if not is_wanted(question):
         raise UserError("nothing was changed")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -22,6 +24,7 @@ from deixis_frontend.output_files import UnfinishedFile
 
 _POLL_S = 0.1
 _SAY_EVERY_S = 2.0
+_DROPPED = re.compile(r"Dropped (\d+) packet")  # in what lcm-logger writes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -39,19 +42,44 @@ def run(arguments: argparse.Namespace) -> int:
     """0 when messages were recorded; Ctrl-C, SIGTERM and SIGHUP end the recording alike."""
     url = lcm_url.choose(arguments.lcm_url)
     lcm_url.require_bus(url)
-    command = [find_logger(), url_option(url), "--quiet", "--force",
-               f"--channel={any_of(arguments.channels).pattern}"]
+    command = [find_logger(), url_option(url), "--force", f"--channel={any_of(arguments.channels).pattern}"]
     output = arguments.output or _default_output()
     _make_folder(output.parent)
     file = UnfinishedFile(output, "--output", may_replace=arguments.force)
     print(f"recording to {output}" + ("" if arguments.seconds else "; Ctrl-C stops"), flush=True)
     end_as_by_ctrl_c(signal.SIGTERM, signal.SIGHUP)
     with held_back() as let_through:
-        logger = subprocess.Popen([*command, str(file.path)], stdout=subprocess.DEVNULL,
-                                  stderr=subprocess.PIPE, text=True, start_new_session=True,
+        logger = subprocess.Popen([*command, str(file.path)], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True, errors="replace",
+                                  start_new_session=True,
                                   preexec_fn=end_with_parent(signal.SIGINT))
+        losses = _Losses(logger)
         _wait(logger, arguments.seconds, file, let_through)
-    return _conclude(logger, file)
+    return _conclude(logger, file, losses)
+
+
+class _Losses:
+    """Counts what the logger says that it has dropped, since the disk was too slow.
+
+    It says so once per second, on stdout; what it drops in its last second it does not say.
+    """
+
+    def __init__(self, logger: subprocess.Popen[str]) -> None:
+        self._logger = logger
+        self._dropped = 0
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def total(self) -> int:
+        """Messages dropped, at least; to be asked when the logger has ended."""
+        self._reader.join()
+        return self._dropped
+
+    def _read(self) -> None:
+        assert self._logger.stdout is not None
+        for line in self._logger.stdout:
+            if match := _DROPPED.search(line):
+                self._dropped += int(match[1])
 
 
 def _default_output() -> Path:
@@ -90,8 +118,13 @@ def _wait(logger: subprocess.Popen[str], seconds: float | None, file: Unfinished
         logger.send_signal(signal.SIGINT)  # It is in a session of its own: nobody else ends it.
 
 
-def _conclude(logger: subprocess.Popen[str], file: UnfinishedFile) -> int:
-    said = (logger.communicate()[1] or "").strip().splitlines()
+def _conclude(logger: subprocess.Popen[str], file: UnfinishedFile, losses: _Losses) -> int:
+    assert logger.stderr is not None
+    said = logger.stderr.read().strip().splitlines()
+    logger.wait()
+    if dropped := losses.total():
+        print(f"deixis: at least {dropped} messages were not recorded, since the disk was too slow:"
+              " record fewer channels, or to a faster disk", file=sys.stderr)
     is_empty = not file.size
     if is_empty:
         file.discard()

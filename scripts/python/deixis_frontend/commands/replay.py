@@ -13,6 +13,7 @@ from deixis_frontend.errors import UserError
 from deixis_frontend.lcm_tools import require_log
 from deixis_frontend.log_player import Played
 from deixis_frontend.number_options import above_zero
+from deixis_frontend.printable import printable
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -41,4 +42,4 @@ def _why_nothing(arguments: argparse.Namespace, played: Played) -> str:
     if not played.other_channels:
         return f"nothing was published: {arguments.file} holds no whole message"
     return (f"nothing was published: no channel is '{arguments.channels.pattern}': {arguments.file}"
-            f" has {', '.join(sorted(played.other_channels))}")
+            f" has {', '.join(map(printable, sorted(played.other_channels)))}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import shutil
 import subprocess
 import sys
@@ -11,6 +12,9 @@ from pathlib import Path
 from deixis_frontend.errors import UserError
 from deixis_frontend.deployment.systemd_units import MARK
 from deixis_frontend.output_files import require_folder, write_text
+
+
+_SEAL = "# Taken away with the units as long as this is the SHA-256 of the lines below: "
 
 
 @dataclass(frozen=True)
@@ -29,7 +33,7 @@ class UnitFile:
     def is_ours(self) -> bool:
         """Whether the file that is there is one that we wrote."""
         present = self.present() or ""
-        return present == self.text if self.is_users else present.startswith(MARK)
+        return _is_unchanged(present) if self.is_users else present.startswith(MARK)
 
     def present(self) -> str | None:
         """What the file holds; None when there is none."""
@@ -39,6 +43,15 @@ class UnitFile:
             return None
         except (OSError, UnicodeDecodeError) as error:
             raise UserError(f"{self.path} cannot be read: {error}") from None
+
+
+def sealed(text: str) -> str:
+    """The text below a line that tells whether it was changed; for files of comments by `#`."""
+    return f"{_SEAL}{hashlib.sha256(text.encode()).hexdigest()}\n{text}"
+
+
+def _is_unchanged(text: str) -> bool:
+    return text == sealed(text.partition("\n")[2])
 
 
 def write(files: list[UnitFile]) -> None:
@@ -66,11 +79,11 @@ def remove(files: list[UnitFile]) -> list[Path]:
 
 
 def systemctl(arguments: list[str], *, is_user: bool) -> bool:
-    """Runs systemctl; says what went wrong, which is no reason to stop."""
+    """Runs systemctl; says what went wrong. Where there is none, there is nothing to go wrong."""
     command = ["systemctl", *(["--user"] if is_user else []), *arguments]
     if shutil.which("systemctl") is None:
         print(f"deixis: no systemctl here: `{' '.join(command)}` was not run", file=sys.stderr)
-        return False
+        return True
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         said = (done.stderr.strip().splitlines() or ["it gave no reason"])[-1]

@@ -11,16 +11,17 @@ from deixis_frontend.lcm_url import LcmUrl
 
 @dataclass(frozen=True)
 class CommandLines:
-    """Writes command lines as the user would."""
+    """Writes command lines that run wherever they are pasted, also behind sudo."""
 
+    launcher: Path  # `deixis`
     url: LcmUrl
     system_file: Path | None  # None: the default one
 
     def on_bus(self, command: str, *words: str) -> str:
         """A command that deals with the bus."""
-        return shlex.join(["deixis", command, *words, "-l", str(self.url)])
+        return shlex.join([str(self.launcher), command, *words, "-l", str(self.url)])
 
     def on_system(self, command: str, *words: str) -> str:
         """A command that deals with the supervisor."""
         option = ["--system", str(self.system_file)] if self.system_file else []
-        return shlex.join(["deixis", command, *words, *option])
+        return shlex.join([str(self.launcher), command, *words, *option])

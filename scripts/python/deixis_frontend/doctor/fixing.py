@@ -8,26 +8,18 @@ import subprocess
 import sys
 
 from deixis_frontend.doctor.findings import Command, Finding
+from deixis_frontend.questions import is_wanted
 
 
 def fix(findings: list[Finding], *, is_agreed: bool) -> bool:
     """Runs the cures of all findings that have some; true when one was run."""
     commands = [command for finding in findings for command in finding.fixes]
     return any([_run(_as_root(command)) for command in commands
-                if is_agreed or _is_wanted(_as_root(command))])
+                if is_agreed or is_wanted(f"run `{' '.join(_as_root(command))}`?")])
 
 
 def _as_root(command: Command) -> Command:
     return command if os.geteuid() == 0 or not shutil.which("sudo") else ("sudo", *command)
-
-
-def _is_wanted(command: Command) -> bool:
-    """Asks; who is not there to answer does not want it."""
-    print(f"run `{' '.join(command)}`? [y/N] ", end="", file=sys.stderr, flush=True)
-    answer = sys.stdin.readline()
-    if not answer.endswith("\n"):
-        print(file=sys.stderr)
-    return answer.strip().lower() in ("y", "yes")
 
 
 def _run(command: Command) -> bool:

@@ -15,19 +15,27 @@ from deixis_frontend.errors import UserError
 from deixis_frontend.layout import Layout
 from deixis_frontend.supervision.system_file import System
 
-_NEEDED = ("lcm", "numpy", "PyYAML")  # the rest of the requirements is for tests and pictures
+# Who needs which of the requirements; the rest of them is for tests and figures.
+_FRONT_END = ("lcm", "numpy", "PyYAML")
+_EXPORT = ("foxglove-schemas-protobuf", "mcap", "mcap-protobuf-support", "protobuf", "zstandard")
 _ANSWERS_WITHIN_S = 10.0
 
 
 def python(layout: Layout) -> list[Finding]:
-    """This Python and the modules that the front end needs, in the tested versions."""
+    """This Python and the modules of the requirements, in the tested versions.
+
+    Installed, those that only tests and figures need are not asked for.
+    """
     if sys.version_info < (3, 11):
         return [Finding(PROBLEM, "python", f"{sys.executable} is {platform.python_version()}: 3.11"
                         " or later is needed", "export DEIXIS_PYTHON=/usr/bin/python3")]
-    faults = [fault for name, tested in _requirements().items()
+    needed = {name: tested for name, tested in _requirements().items()
+              if layout.repository or name in (*_FRONT_END, *_EXPORT)}
+    faults = [fault for name, tested in needed.items()
               if (fault := _module_fault(name, tested, layout))]
-    return faults or [Finding(OK, "python", f"{platform.python_version()} has what"
-                              " requirements.txt lists")]
+    users = ", ".join(dict.fromkeys(map(_user, needed)))
+    return faults or [Finding(OK, "python", f"{platform.python_version()} has what requirements.txt"
+                              f" lists for: {users}")]
 
 
 def _requirements() -> dict[str, str]:
@@ -36,16 +44,20 @@ def _requirements() -> dict[str, str]:
     return {name: version for name, _, version in (line.partition("==") for line in lines)}
 
 
+def _user(name: str) -> str:
+    if name in _FRONT_END:
+        return "the front end"
+    return "`deixis export`" if name in _EXPORT else "tests and figures"
+
+
 def _module_fault(name: str, tested: str, layout: Layout) -> Finding | None:
     cure = ("scripts/setup" if layout.repository
             else f"{sys.executable} -m pip install {name}=={tested}")
     try:
         version = importlib.metadata.version(name)
     except importlib.metadata.PackageNotFoundError:
-        if name in _NEEDED:
-            return Finding(PROBLEM, "python", f"the module {name} is missing", cure)
-        return layout.repository and Finding(WARNING, "python", f"the module {name}, for tests and"
-                                             " figures, is missing", cure) or None
+        return Finding(PROBLEM if name in _FRONT_END else WARNING, "python",
+                       f"the module {name}, for {_user(name)}, is missing", cure)
     if layout.repository and version != tested:
         return Finding(WARNING, "python", f"{name} is {version}, tested is {tested}", cure)
     return None

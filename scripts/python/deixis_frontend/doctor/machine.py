@@ -7,6 +7,7 @@ import os
 import shutil
 import tempfile
 import time
+from collections.abc import Mapping
 from pathlib import Path
 
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding
@@ -15,17 +16,17 @@ from deixis_frontend.supervision.process_facts import command_name
 _LITTLE_SPACE, _NO_SPACE = 1e9, 1e8  # bytes: a few minutes of recording; nothing to speak of
 _EARLIEST = 1_704_067_200  # 2024-01-01: a clock before that has never been set
 _JUMP_S = 0.05
+_OWN = "deixis-"  # how our programs are called
 _STA_UNSYNC = 0x40  # of adjtimex(2)
 
 
-def cameras(wanted: str | None, devices: Path = Path("/dev")) -> list[Finding]:
-    """The video devices; `wanted` is the one that a service is to open, None when there is none."""
+def cameras(wanted: Mapping[str, Path], devices: Path = Path("/dev")) -> list[Finding]:
+    """The video devices; `wanted` are those that services are to open, and the files that say so."""
     found = sorted(devices.glob("video[0-9]*"))
     findings = [_camera(device) for device in found]
-    if wanted is not None and not Path(wanted).exists():
-        findings.append(Finding(
-            PROBLEM, "camera", f"{wanted}, which the configuration names, is not there: plug it in,"
-            " or set source in config/camera_driver.yaml", "ls -l /dev/video*"))
+    findings += [Finding(PROBLEM, "camera", f"{device}, which the configuration names, is not there:"
+                         f" plug it in, or set source in {file}", "ls -l /dev/video*")
+                 for device, file in wanted.items() if not Path(device).exists()]
     return findings or [Finding(OK, "camera", "there is none, and none is asked for")]
 
 
@@ -34,7 +35,7 @@ def _camera(device: Path) -> Finding:
         return Finding(PROBLEM, "camera", f"{device} may not be opened by this user",
                        "sudo usermod -aG video $USER && newgrp video")
     users = _users(device)
-    strangers = [user for user in users if not user.startswith("deixis-camera-driver ")]
+    strangers = [user for user in users if not user.startswith(_OWN)]
     if strangers:
         return Finding(WARNING, "camera", f"{device} is in use by {', '.join(strangers)}",
                        f"fuser -v {device}")

@@ -11,6 +11,7 @@ import subprocess
 
 from deixis_frontend import lcm_url
 from deixis_frontend.doctor import firewall
+from deixis_frontend.doctor.command_lines import CommandLines
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding
 from deixis_frontend.lcm_url import RECEIVE_BUFFER_BYTES, LcmUrl
 
@@ -38,9 +39,9 @@ def receive_buffer(url: LcmUrl) -> list[Finding]:
         return []
     asked = int(dict(url.parameters).get("recv_buf_size", RECEIVE_BUFFER_BYTES))
     if asked < RECEIVE_BUFFER_BYTES:
-        bare = f"{url.provider}://{url.network}"
         return [Finding(WARNING, "receive_buffer", f"the URL asks for {asked} bytes only: leave"
-                        f" recv_buf_size out", f"export LCM_DEFAULT_URL='{bare}'")]
+                        f" recv_buf_size out",
+                        f"export LCM_DEFAULT_URL='{url.without('recv_buf_size')}'")]
     granted = granted_buffer(asked)
     if granted < asked:
         return [Finding(WARNING, "receive_buffer", f"the kernel grants {granted} of {asked} bytes:"
@@ -63,10 +64,10 @@ def reach(url: LcmUrl) -> list[Finding]:
     if ttl == 0:
         return [Finding(OK, "reach", "messages stay on this host (ttl=0)")]
     return [Finding(WARNING, "reach", f"messages leave this host (ttl={ttl}), and LCM knows no"
-                    " passwords", f"export LCM_DEFAULT_URL='udpm://{url.group}:{url.port}?ttl=0'")]
+                    " passwords", f"export LCM_DEFAULT_URL='{url.without('ttl').with_default('ttl', 0)}'")]
 
 
-def fence(url: LcmUrl) -> list[Finding]:
+def fence(url: LcmUrl, commands: CommandLines) -> list[Finding]:
     """Whether others can send to our port."""
     if url.provider != "udpm":
         return []
@@ -76,7 +77,7 @@ def fence(url: LcmUrl) -> list[Finding]:
     place = f"port {url.port} on {', '.join(others)}"
     if os.geteuid() != 0:
         return [Finding(WARNING, "fence", f"only root can tell whether a firewall closes {place}",
-                        f"sudo deixis doctor -l '{url}'")]
+                        f"sudo {commands.on_bus('doctor')}")]
     rule = firewall.closing_rule(_rules(), url.port)
     if rule:
         return [Finding(OK, "fence", f"a firewall closes {place}: {rule}")]

@@ -2,34 +2,28 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from dataclasses import replace
 from typing import Any
 
-import yaml
-
-from deixis_frontend import __version__
+from deixis_frontend import __version__, lcm_url
 from deixis_frontend.doctor.command_lines import CommandLines
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding
-from deixis_frontend.layout import Layout
-from deixis_frontend.lcm_url import LcmUrl
 from deixis_frontend.listening.publisher_names import PublisherNames
 from deixis_frontend.listening.traffic import Traffic
 from deixis_frontend.printable import printable
 from deixis_frontend.supervision.control_client import Client
-from deixis_frontend.supervision.system_file import ServiceEntry, System
-
-_CAMERA_PROGRAM = "deixis-camera-driver"
+from deixis_frontend.supervision.system_file import System
 
 
-def supervisor(client: Client, system: System, url: LcmUrl) -> list[Finding]:
+def supervisor(client: Client, system: System, commands: CommandLines) -> list[Finding]:
     """Whether the system runs, and on the bus that we look at."""
     if not client.is_supervised():
         return [Finding(OK, "system", f"'{system.name}' does not run")]
     running = client.command("status", [])["status"]["lcm_url"]
-    if running == str(url):
-        return [Finding(OK, "system", f"'{system.name}' runs on {url}")]
-    return [Finding(WARNING, "system", f"'{system.name}' runs on {running}, we look at {url}",
-                    f"deixis doctor -l '{running}'")]
+    if running == str(commands.url):
+        return [Finding(OK, "system", f"'{system.name}' runs on {running}")]
+    return [Finding(WARNING, "system", f"'{system.name}' runs on {running}, we look at"
+                    f" {commands.url}", replace(commands, url=lcm_url.parse(running)).on_bus("doctor"))]
 
 
 def publishers(traffic: Traffic, names: PublisherNames,
@@ -102,32 +96,3 @@ def versions(traffic: Traffic, commands: CommandLines) -> list[Finding]:
                     f" {printable(status.version)}, the front end is {__version__}",
                     commands.on_system("restart", status.service))
             for _, status in traffic.statuses() if status.version != __version__]
-
-
-def wanted_camera(system: System, layout: Layout) -> str | None:
-    """The video device that a service which is started by default is to open, if one is."""
-    started = system.with_needs(system.resolve(list(system.start)))
-    for entry in (system.services[name] for name in started):
-        if entry.program == _CAMERA_PROGRAM:
-            return _device(entry, system, layout)
-    return None
-
-
-def _device(entry: ServiceEntry, system: System, layout: Layout) -> str | None:
-    file = layout.config_file(entry.config or f"{entry.service}.yaml", system.path.parent)
-    source = _source(file)
-    kind = entry.settings.get("source.kind", source.get("kind", "device"))
-    path = str(entry.settings.get("source.path", source.get("path", "0")))
-    if kind != "device":
-        return None
-    return f"/dev/video{path}" if path.isdigit() else path
-
-
-def _source(file: Path) -> dict[str, Any]:
-    """The section `source` of the driver's file; what is wrong with it, the driver itself tells."""
-    try:
-        content = yaml.safe_load(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError, yaml.YAMLError):
-        return {}
-    section = content.get("source") if isinstance(content, dict) else None
-    return section if isinstance(section, dict) else {}

@@ -10,6 +10,7 @@ import argparse
 import csv
 import io
 import re
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -98,9 +99,10 @@ def _pictures(arguments: argparse.Namespace) -> list[str]:
 
 def _save_pictures(where: layout.Layout, arguments: argparse.Namespace) -> None:
     columns, rows = arguments.board
-    run_program(where, "deixis-calibrator", "stereo", *_pictures(arguments), "--board",
-                f"{columns}x{rows}", "--square", str(arguments.square), "--force",
-                "--save", str(arguments.save), "--output", str(arguments.save))
+    with tempfile.TemporaryDirectory() as folder:  # Of the calibration, which nobody has asked for.
+        run_program(where, "deixis-calibrator", "stereo", *_pictures(arguments), "--board",
+                    f"{columns}x{rows}", "--square", str(arguments.square), "--accept-poor",
+                    "--save", str(arguments.save), "--output", folder)
     print(f"pictures: {arguments.save}")
 
 

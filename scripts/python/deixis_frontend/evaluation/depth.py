@@ -8,7 +8,6 @@ from __future__ import annotations
 import argparse
 import csv
 import fnmatch
-import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,8 @@ from typing import Any
 from deixis_frontend import layout
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import report_options
-from deixis_frontend.programs import last_words
+from deixis_frontend.number_options import positive_count
+from deixis_frontend.programs import program_lines
 
 _PROGRAM = "deixis-evaluate-depth"
 _METHODS = ("sgbm_3way", "bm")
@@ -44,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     report_options.add_json(parser)
     report_options.add_plots(parser, "depth and its errors")
     parser.add_argument("--method", choices=_METHODS, help="another way of matching than configured")
-    parser.add_argument("--every", type=int, default=1, metavar="N",
+    parser.add_argument("--every", type=positive_count, default=1, metavar="N",
                         help="use every N-th frame that has a truth")
     parser.add_argument("--set", dest="settings", action="append", default=[], metavar="KEY=VALUE",
                         help="override a key of stereo_driver.yaml")
@@ -53,8 +53,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """0; raises UserError when there is nothing to measure."""
     report_options.check(arguments)
-    if arguments.every < 1:
-        raise UserError("--every must be a positive number")
     sequences, pairs, skipped = _recordings(arguments.data, arguments.only)
     for left_out in skipped:
         print(f"not used: {left_out['name']} ({left_out['reason']})")
@@ -107,16 +105,8 @@ def _command(arguments: argparse.Namespace, sequences: list[Path], pairs: list[s
 
 def _measure(command: list[str]) -> Iterator[Row]:
     """The program's rows as they come; raises UserError when it fails."""
-    where = layout.find()
-    with subprocess.Popen([str(where.program(_PROGRAM)), *command], env=where.environment(),
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          errors="replace") as program:
-        assert program.stdout is not None and program.stderr is not None
-        for row in csv.DictReader(program.stdout):
-            yield {key: _value(key, text) for key, text in row.items()}
-        said = program.stderr.read()
-    if program.returncode != 0:
-        raise UserError(f"{_PROGRAM} failed: {last_words(said) or f'exit code {program.returncode}'}")
+    for row in csv.DictReader(program_lines(layout.find(), _PROGRAM, *command)):
+        yield {key: _value(key, text) for key, text in row.items()}
 
 
 def _value(key: str, text: str) -> Any:

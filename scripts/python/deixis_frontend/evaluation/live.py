@@ -12,6 +12,7 @@ import signal
 import subprocess
 import tempfile
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import report_options
 from deixis_frontend.number_options import above_zero
+from deixis_frontend.programs import last_words
 from deixis_frontend.received import Decoder
 from deixis_frontend.supervision.process_facts import cpu_seconds, resident_bytes
 from deixis_frontend.supervision.status_listener import CHANNEL, as_facts
@@ -134,16 +136,19 @@ class _Chain:
         self._wait_for((self._feed.driver,))
 
     def measure(self, seconds: float) -> dict[str, dict[str, Any]]:
-        """The figures of each service over so many seconds; stops the camera."""
-        before = {name: cpu_seconds(p.pid) for name, p in self._processes.items()}
+        """The figures of each service over so many seconds; stops the camera.
+
+        UserError when a service has not lived through it: what it said last would be no figures.
+        """
+        before = self._cpu_seconds()
         start = time.monotonic()
         self._listen(seconds)
         elapsed = time.monotonic() - start
-        load = {name: (cpu_seconds(p.pid) or 0.0) - (before[name] or 0.0)
-                for name, p in self._processes.items()}
+        load = {name: after - before[name] for name, after in self._cpu_seconds().items()}
         memory = {name: resident_bytes(p.pid) for name, p in self._processes.items()}
         self._stop(self._feed.driver)
         self._listen(SETTLING_S)
+        self._require_all_alive(CONSUMERS)
         pictures = _messages(self._facts[self._feed.driver], self._feed.channel, "out")
         return {name: _figures(self._facts[name], name, 100.0 * load[name] / elapsed, memory[name],
                                pictures)
@@ -154,14 +159,20 @@ class _Chain:
         for name in list(self._processes):
             self._stop(name)
 
+    def _cpu_seconds(self) -> dict[str, float]:
+        """Of all processes, which are alive then."""
+        used = {name: cpu_seconds(p.pid) for name, p in self._processes.items()}
+        self._require_all_alive(self._processes)
+        return {name: seconds for name, seconds in used.items() if seconds is not None}
+
     def _start(self, service: str, *settings: str) -> None:
         program = self._where.program("deixis-" + service.replace("_", "-"))
         command = [str(program), "--lcm-url", str(self._url)]
         for setting in settings:
             command += ["--set", setting]
-        log = (self._folder / f"{service}.log").open("wb")
-        self._processes[service] = subprocess.Popen(
-            command, stderr=log, preexec_fn=end_with_parent(signal.SIGTERM))
+        with (self._folder / f"{service}.log").open("wb") as log:
+            self._processes[service] = subprocess.Popen(
+                command, stderr=log, preexec_fn=end_with_parent(signal.SIGTERM))
 
     def _stop(self, service: str) -> None:
         process = self._processes[service]
@@ -176,17 +187,16 @@ class _Chain:
         deadline = time.monotonic() + START_UP_LIMIT_S
         while not all(service in self._facts for service in services):
             self._listen(0.2)
-            for service in services:
-                self._require_alive(service)
+            self._require_all_alive(services)
             if time.monotonic() > deadline:
                 missing = [service for service in services if service not in self._facts]
                 raise UserError(f"{', '.join(missing)} did not get ready in {START_UP_LIMIT_S:.0f} s")
 
-    def _require_alive(self, service: str) -> None:
-        if self._processes[service].poll() is None:
-            return
-        lines = (self._folder / f"{service}.log").read_text(errors="replace").splitlines()
-        raise UserError(f"{service} ended at once: {lines[-1] if lines else 'without a word'}")
+    def _require_all_alive(self, services: Iterable[str]) -> None:
+        for service in services:
+            if self._processes[service].poll() is not None:
+                said = last_words((self._folder / f"{service}.log").read_text(errors="replace"))
+                raise UserError(f"{service} has ended: {said or 'without a word'}")
 
     def _listen(self, seconds: float) -> None:
         deadline = time.monotonic() + seconds

@@ -83,4 +83,8 @@ _LATEST_US = (2**64 - 1) // 1000  # MCAP counts nanoseconds
 
 
 def _utime(message: Any) -> int:
-    return int(message.utime)
+    """Its time in microseconds; ValueError if it fits into no MCAP file."""
+    utime = int(message.utime)
+    if not 0 <= utime <= _LATEST_US:
+        raise ValueError(f"utime {utime} us fits into no MCAP file")
+    return utime

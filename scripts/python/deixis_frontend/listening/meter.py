@@ -75,7 +75,7 @@ class Meter:
             if arrival is not None:
                 self._take(arrival)
             elif messages.url and time.monotonic() >= next_table:
-                next_table += _TABLE_EVERY_S
+                next_table = time.monotonic() + _TABLE_EVERY_S  # One, however many were missed.
                 self._print_recent()
 
     def conclude(self, messages: Source) -> None:

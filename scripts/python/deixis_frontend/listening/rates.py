@@ -7,6 +7,7 @@ from collections import deque
 from dataclasses import dataclass, field
 
 LARGEST_GAP = 100_000  # a larger step is a publisher that counts otherwise; as in bus.cpp
+MOST_PUBLISHERS = 200  # of a channel, whose numbers are known: noise is not to fill the memory
 HEADER = ("channel", "Hz", "mean ms", "min ms", "max ms", "jitter ms", "lost", "longest gap ms",
           "kB/s", "messages")
 
@@ -43,19 +44,21 @@ class Loss:
     lost: int = 0
     steps_back: int = 0  # a publisher that began anew, or two of them on one channel
     is_known: bool = False
-    _last: dict[str, int] = field(default_factory=dict)
+    _last: dict[str, int] = field(default_factory=dict)  # the latest heard at the end
 
     def add(self, sequence: int | None, publisher: str) -> None:
         """The number of the next message; None when it has none."""
         if sequence is None:
             return
         self.is_known = True
-        step = sequence - self._last.get(publisher, sequence - 1)
+        step = sequence - self._last.pop(publisher, sequence - 1)
         if step <= 0:
             self.steps_back += 1
         elif step - 1 <= LARGEST_GAP:
             self.lost += step - 1
         self._last[publisher] = sequence
+        if len(self._last) > MOST_PUBLISHERS:
+            del self._last[next(iter(self._last))]
 
 
 class ChannelRate:
@@ -84,11 +87,11 @@ class ChannelRate:
         self._messages += 1
         self._bytes += size
         self._recent.append((time_us, size))
+        self._forget_before(time_us - self._window_us)
 
     def recent_row(self, now_us: int) -> tuple[str, ...]:
         """Of the window, which ends now: what has stopped, shows."""
-        while self._recent and self._recent[0][0] < now_us - self._window_us:
-            self._recent.popleft()
+        self._forget_before(now_us - self._window_us)
         intervals = Intervals()
         times = [time_us for time_us, _ in self._recent]
         for earlier, later in zip(times, times[1:]):
@@ -112,6 +115,10 @@ class ChannelRate:
         if self.times_back:
             notes.append(f"the clock went back {self.times_back} times: these are no intervals")
         return [f"{self.channel}: {note}" for note in notes]
+
+    def _forget_before(self, begin_us: float) -> None:
+        while self._recent and self._recent[0][0] < begin_us:
+            self._recent.popleft()
 
     def _row(self, intervals: Intervals, span_us: int, size: int) -> tuple[str, ...]:
         lost = str(self.loss.lost) if self.loss.is_known else "-"

@@ -27,6 +27,7 @@ _LONGEST_CHANNEL = 63  # LCM's own limit
 _LONGEST_DATAGRAM = 65_536
 _BUFFER_BYTES = 4 * 1024 * 1024
 _POLL_S = 0.1
+MOST_SENDERS = 100  # of a channel that are told apart
 Address = tuple[str, int]
 
 
@@ -49,9 +50,11 @@ class Senders:
         """A message from there. Noise is not to fill the memory."""
         if channel not in self.by_channel and len(self.by_channel) >= MOST_CHANNELS:
             return
-        sender = self.by_channel.setdefault(channel, {}).setdefault(
-            address, Sender(address, now_s, now_s))
-        sender.last_s = now_s
+        senders = self.by_channel.setdefault(channel, {})
+        if address in senders:
+            senders[address].last_s = now_s
+        elif len(senders) < MOST_SENDERS:
+            senders[address] = Sender(address, now_s, now_s)
 
     def at_once(self, channel: str) -> list[Address]:
         """Those of a channel that spoke at the same time as another one; a restart is none."""

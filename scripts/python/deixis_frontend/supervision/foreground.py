@@ -6,7 +6,10 @@ import asyncio
 import os
 import socket
 import sys
+from contextlib import suppress
+from typing import Any
 
+from deixis_frontend.supervision.own_log import say
 from deixis_frontend.supervision.supervised_service import State
 from deixis_frontend.supervision.supervisor import Report, Supervisor
 
@@ -37,15 +40,20 @@ class Foreground:
 
     async def _run(self, supervisor: Supervisor, end: asyncio.Event) -> None:
         wanted = supervisor.all_for(self._names)
-        await supervisor.start(self._names, self._report)
+        await supervisor.start(self._names, self._tell)
         if not supervisor.in_state(State.FAILED, wanted):
             notify(f"READY=1\nSTATUS={len(wanted)} services have been started")
         while not (failed := supervisor.in_state(State.FAILED, wanted)):
             await asyncio.sleep(_LOOK_EVERY_S)
         self._give_up(f"given up: {', '.join(failed)}: all is stopped", end)
 
+    def _tell(self, facts: dict[str, Any]) -> None:
+        """The services go on when nobody reads: what they write is in their logs."""
+        with suppress(OSError):
+            self._report(facts)
+
     def _give_up(self, words: str, end: asyncio.Event) -> None:
-        print(f"deixis: {words}", file=sys.stderr, flush=True)
+        say(f"deixis: {words}")
         notify(f"STATUS={words}")
         self.exit_code = 1
         end.set()
