@@ -8,6 +8,8 @@
 #include <sensor_msgs/Image.hpp>
 
 #include "common/messages/camera_calibration.h"
+#include "common/messages/camera_pose.h"
+#include "common/messages/frame_transforms.h"
 #include "common/messages/gesture.h"
 #include "common/messages/gesture_state.h"
 #include "common/messages/hands.h"
@@ -219,6 +221,11 @@ sensor_msgs::CameraInfo RobotLens(std::int64_t utime_us) {
   return message;
 }
 
+geometry::FrameTransforms Head(Timestamp time) {
+  return {{time, "base_link", "neck", {Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}}},
+          {time, "neck", "camera", {Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, 0.0, 0.0}}}};
+}
+
 messages::ServiceStatus Status(Timestamp time) {
   messages::ServiceStatus status;
   status.time = time;
@@ -248,6 +255,8 @@ std::vector<GoodMessage> GoodMessages(std::int64_t utime_us) {
       Of("stereo", "STEREO", images::StereoImage{Encoded(time), Depth()}),
       Of("stereo_pair", "STEREO_PAIR", images::EncodedStereoPair{Encoded(time), Encoded(time)}),
       Of("stereo_calibration", "STEREO_CALIBRATION", Rig(time)),
+      Of("camera_pose", "CAMERA_POSE", geometry::CameraPose{time, Head(time)[1].parent_from_child}),
+      Of("transforms", "/tf#tf2_msgs.TFMessage", Head(time)),
       Of("kinect", "KINECT_FRAME", Rgbd(time)),
       {"dimos_info", kInfo, messages::EncodeWire(RobotLens(utime_us))},
       {"dimos_jpeg", kColour, messages::EncodeWire(RobotPicture("jpeg", Jpeg(), 0, utime_us))},

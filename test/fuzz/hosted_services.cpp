@@ -76,7 +76,9 @@ void HostedServices::AddDrivers() {
   const std::string in = folder_.Write("in.yml", stereo_driver::IntrinsicsText(rig)).string();
   const std::string ex = folder_.Write("ex.yml", stereo_driver::ExtrinsicsText(rig)).string();
   Add<camera_driver::CameraDriverService, camera_driver::CameraDriverServiceConfig>(
-      "camera_driver.yaml", {"source.kind=dimos", "image_channel=CAMERA_OF_DIMOS"});
+      "camera_driver.yaml",
+      {"source.kind=dimos", "image_channel=CAMERA_OF_DIMOS",
+       "calibration.mount.parent_frame=base_link", "dimos.camera_frame=camera"});
   NoteNewChannels();
   Add<stereo_driver::StereoDriverService, stereo_driver::StereoDriverServiceConfig>(
       "stereo_driver.yaml", {"source.kind=dimos", "stereo_channel=STEREO_OF_DIMOS"});
