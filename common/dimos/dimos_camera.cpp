@@ -39,6 +39,7 @@ std::unique_ptr<capture::PushedSource> DimosCamera::Listen(transport::Bus& input
       [this, pictures = source.get()](const images::Image& picture) {
         HearFrameOf(picture);
         pictures->Push(picture);
+        handlers_.picture();
       });
   input.SubscribeForeign<CameraCalibration>(config_.info_channel, Delivery::kLatest,
                                             [this](const CameraCalibration& lens) {

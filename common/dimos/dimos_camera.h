@@ -42,6 +42,7 @@ class DimosCamera {
   struct Handlers {
     std::function<void(const geometry::CameraCalibration&)> lens;
     std::function<void(const geometry::CameraPose&)> pose;  ///< By transforms, as they come.
+    std::function<void()> picture;  ///< One waits in the source. Called from within the bus.
   };
 
   /// `parent_frame` as in the camera's mount; empty = transforms are not followed.

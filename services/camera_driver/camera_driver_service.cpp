@@ -41,7 +41,7 @@ CameraDriverService::CameraDriverService(const CameraDriverServiceConfig& config
       clock_(capture::SystemClocks()),
       dimos_(config.dimos, config.driver.calibration.mount.parent_frame,
              {[this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); },
-              [this](const geometry::CameraPose& pose) { Publish(pose); }}),
+              [this](const geometry::CameraPose& pose) { Publish(pose); }, [this] { Advance(); }}),
       driver_(config.driver, SourceOf(config, input)) {
   // A pose that nobody has given is none until the robot's transforms say it.
   const bool is_given = !config.driver.calibration.mount.IsIdentity();
@@ -57,11 +57,16 @@ std::unique_ptr<capture::Source> CameraDriverService::SourceOf(
 }
 
 program::StepResult CameraDriverService::Step() {
+  const capture::SourceState state = Advance();
+  log_.Note(driver_.calibration_remark(), driver_.status().trouble);
+  if (state == capture::SourceState::kFinished) LogSummary();
+  return program::ResultOf(state);
+}
+
+capture::SourceState CameraDriverService::Advance() {
   const DriverOutput step = driver_.Next(clock_.Now());
   Publish(step);
-  log_.Note(driver_.calibration_remark(), driver_.status().trouble);
-  if (step.state == capture::SourceState::kFinished) LogSummary();
-  return program::ResultOf(step.state);
+  return step.state;
 }
 
 void CameraDriverService::Publish(const DriverOutput& step) {

@@ -47,6 +47,9 @@ class CameraDriverService {
  private:
   std::unique_ptr<capture::Source> SourceOf(const CameraDriverServiceConfig& config,
                                             transport::Bus& input);
+  /// Publishes what is due. A robot's pictures are published as they come, from within the bus: it
+  /// drops and counts what cannot be, where Step() would end the program.
+  capture::SourceState Advance();
   void Publish(const DriverOutput& step);
   void Publish(const geometry::CameraPose& pose);
   void LogSummary() const;

@@ -61,7 +61,7 @@ StereoDriverService::StereoDriverService(const StereoDriverServiceConfig& config
       clock_(capture::SystemClocks()),
       dimos_(config.dimos.camera, mount().parent_frame,
              {[this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); },
-              [this](const geometry::CameraPose& pose) { Publish(pose); }}),
+              [this](const geometry::CameraPose& pose) { Publish(pose); }, [this] { Advance(); }}),
       driver_(config.driver, SourceOf(config, input), WhatToKeep(config)) {
   // A pose that nobody has given is none until the robot's transforms say it.
   if (dimos_.follows_transforms() && mount().IsIdentity()) driver_.UseMount(std::nullopt);
@@ -78,7 +78,10 @@ std::unique_ptr<FrameSource> StereoDriverService::SourceOf(const StereoDriverSer
                                                        capture::SystemClocks().monotonic);
   input.SubscribeForeign<images::DepthImage>(
       config.dimos.depth_channel, Delivery::kLatest,
-      [pictures = depth.get()](const images::DepthImage& image) { pictures->Push(image); });
+      [this, pictures = depth.get()](const images::DepthImage& image) {
+        pictures->Push(image);
+        Advance();
+      });
   return std::make_unique<MatchedSource>(
       std::move(colour), std::move(depth), config.driver.source.max_skew_s,
       [](const capture::Picture& picture, const capture::Picture& distances) {
@@ -100,12 +103,17 @@ void StereoDriverService::Listen(transport::Bus& input) {
 }
 
 program::StepResult StereoDriverService::Step() {
-  const StereoStep step = driver_.Next(clock_.Now());
-  PublishIfUsable(step.output);
+  const capture::SourceState state = Advance();
   log_.Note(driver_.calibration_remark(), driver_.status().pictures.trouble);
   LogRegistration();
-  if (step.state == capture::SourceState::kFinished) LogSummary();
-  return program::ResultOf(step.state);
+  if (state == capture::SourceState::kFinished) LogSummary();
+  return program::ResultOf(state);
+}
+
+capture::SourceState StereoDriverService::Advance() {
+  const StereoStep step = driver_.Next(clock_.Now());
+  PublishIfUsable(step.output);
+  return step.state;
 }
 
 void StereoDriverService::PublishIfUsable(const std::optional<StereoOutput>& output) {

@@ -64,6 +64,9 @@ class StereoDriverService {
   std::unique_ptr<FrameSource> SourceOf(const StereoDriverServiceConfig& config,
                                         transport::Bus& input);
   void Listen(transport::Bus& input);
+  /// Publishes what is due. A robot's frames are published as they come, from within the bus: it
+  /// drops and counts what cannot be, where Step() would end the program.
+  capture::SourceState Advance();
   void PublishIfUsable(const std::optional<StereoOutput>& output);
   void Publish(const geometry::CameraPose& pose);
   const capture::MountConfig& mount() const;

@@ -356,6 +356,28 @@ TEST_F(DimosTransforms, HostileOnesAreCountedAndTheNextAreTaken) {
   FAIL() << "no statistics of the robot's channel";
 }
 
+TEST_F(DimosCamera, PicturesThatTheLensFileDoesNotSuitAreCountedAndTheNextIsTaken) {
+  const test::TemporaryFolder folder;
+  config_.driver.calibration.file =
+      folder
+          .Write("lens.yml",
+                 "%YAML:1.0\nimage_width: 64\nimage_height: 48\n"
+                 "M1: !!opencv-matrix\n  rows: 3\n  cols: 3\n  dt: d\n"
+                 "  data: [70., 0., 32., 0., 70., 24., 0., 0., 1.]\n"
+                 "D1: !!opencv-matrix\n  rows: 1\n  cols: 5\n  dt: d\n"
+                 "  data: [0., 0., 0., 0., 0.]\n")
+          .string();
+  CameraDriverService service(config_, bus_, bus_);
+  auto flat = RobotPicture(1);
+  flat.height = 24;
+  Send(bus_, config_.dimos.image_channel, flat);
+  Exchange(service);
+  EXPECT_TRUE(pictures_.empty());
+  Send(bus_, config_.dimos.image_channel, RobotPicture(2));
+  Exchange(service);
+  EXPECT_EQ(pictures_.size(), 1U);
+}
+
 TEST_F(DimosCamera, ChannelsMustBeNames) {
   config_.dimos.info_channel = "/camera info";
   config_.dimos.image_channel = "";

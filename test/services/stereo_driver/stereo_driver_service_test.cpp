@@ -269,6 +269,29 @@ TEST_F(StereoDriverServiceTest, FollowsTheColourCameraOfADimosRobot) {
   EXPECT_THAT(service.health().text, testing::Not(HasSubstr("transform")));
 }
 
+TEST_F(StereoDriverServiceTest, CountsADimosRobotsFramesThatCannotBeUsedAndGoesOn) {
+  config_.driver.source.kind = FrameSourceKind::kDimos;
+  const std::string lens = IntrinsicsText(SyntheticRig()) + "image_width: 320\nimage_height: 240\n";
+  config_.driver.depth_camera.calibration.file = folder_.Write("lens.yml", lens).string();
+  StereoDriverService service(config_, bus_, bus_);
+  const auto send = [&](std::int64_t time_us, cv::Size colour, cv::Size depth) {
+    bus_.Publish("/color_image#sensor_msgs.Image",
+                 images::Image{{time_us}, "", cv::Mat(colour, CV_8UC3, cv::Scalar(1, 2, 3))});
+    bus_.Publish("/depth_image#sensor_msgs.Image",
+                 images::DepthImage{{time_us}, "", cv::Mat(depth, CV_16UC1, cv::Scalar(2000))});
+    test::HandleAll(bus_);
+    service.Step();
+    test::HandleAll(bus_);
+  };
+  send(100'000, {320, 120}, {320, 120});  // Not what the lens file is for.
+  send(200'000, {320, 240}, {320, 120});  // Two views.
+  EXPECT_TRUE(received_.empty());
+  EXPECT_EQ(DropsOn("/depth_image#sensor_msgs.Image")["handler_failed"], 1);
+  EXPECT_THAT(service.health().text, HasSubstr("1 pictures that make no pair"));
+  send(300'000, {320, 240}, {320, 240});
+  EXPECT_EQ(received_.size(), 1u);
+}
+
 TEST_F(StereoDriverServiceTest, PublishesCalibrationThenPairThenDepth) {
   UseFolders(FrameSourceKind::kTwoCameras);
   Write("left.png", pair_.left.bgr);
