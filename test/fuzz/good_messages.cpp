@@ -193,8 +193,8 @@ sensor_msgs::Image RobotPicture(const std::string& encoding, std::vector<std::ui
 sensor_msgs::Image RobotRaw(const std::string& encoding, int bytes_per_pixel,
                             std::int64_t utime_us) {
   const int row_bytes = kWidth_px * bytes_per_pixel;
-  return RobotPicture(encoding, std::vector<std::uint8_t>(row_bytes * kHeight_px, 62), row_bytes,
-                      utime_us);
+  const auto bytes = static_cast<std::size_t>(row_bytes) * kHeight_px;
+  return RobotPicture(encoding, std::vector<std::uint8_t>(bytes, 62), row_bytes, utime_us);
 }
 
 sensor_msgs::CompressedImage RobotJpeg(std::int64_t utime_us) {

@@ -47,10 +47,6 @@ double MostApart_s(const std::array<capture::Grab, 2>& grabs) {
   return most_s;
 }
 
-bool IsRecording(const capture::SourceConfig& config) {
-  return config.kind == capture::SourceKind::kVideo || config.kind == capture::SourceKind::kFolder;
-}
-
 bool LacksTimes(const capture::SourceConfig& config) {
   return config.kind == capture::SourceKind::kFolder &&
          !std::filesystem::exists(std::filesystem::path(config.path) / "times.csv");
@@ -146,7 +142,7 @@ std::string TwoSourceFeed::trouble() const {
 void TimeByOrderUnlessAllHaveTimes(std::vector<capture::SourceConfig>& configs) {
   if (std::none_of(configs.begin(), configs.end(), LacksTimes)) return;
   for (capture::SourceConfig& config : configs) {
-    if (IsRecording(config) && config.rate_hz == 0.0) config.rate_hz = kRateOfOrder_hz;
+    if (capture::IsRecording(config) && config.rate_hz == 0.0) config.rate_hz = kRateOfOrder_hz;
   }
 }
 
