@@ -74,7 +74,8 @@ void AddStreams(CLI::App& app, Arguments& arguments, Texts& texts) {
 }
 
 void AddFit(CLI::App& app, Arguments& arguments, Texts& texts) {
-  app.add_option("--model", texts.model, "Lens model; auto: the best on views left out")
+  app.add_option("--model", texts.model,
+                 "Lens model; auto: the best on views left out; fisheye: not for stereo")
       ->check(CLI::IsMember({"plumb_bob", "rational", "fisheye", "auto"}))
       ->capture_default_str();
   app.add_flag("--fix-aspect", arguments.calibration.lens.has_fixed_aspect, "fx = fy");
@@ -186,10 +187,15 @@ void RequireOneFeed(const Arguments& arguments) {
   }
 }
 
-void ReadModel(const Texts& texts, CalibrationOptions& options) {
+void ReadModel(const Texts& texts, Task task, CalibrationOptions& options) {
   static const std::map<std::string, LensModel> kModels{{"plumb_bob", LensModel::kPlumbBob},
                                                         {"rational", LensModel::kRational},
                                                         {"fisheye", LensModel::kFisheye}};
+  if (task == Task::kStereo && texts.model == "fisheye") {
+    throw CLI::ValidationError("--model",
+                               "a stereo pair's lenses must be plumb_bob, rational or auto: the "
+                               "stereo driver takes no fisheye");
+  }
   if (texts.model == "auto") {
     options.choice = ModelChoice::kByCrossValidation;
   } else {
@@ -206,7 +212,7 @@ void ReadTexts(const Texts& texts, Arguments& arguments) {
     throw CLI::ValidationError("--print", "the file's name must end in .pdf or .png");
   }
   RequireOneFeed(arguments);
-  ReadModel(texts, arguments.calibration);
+  ReadModel(texts, arguments.task, arguments.calibration);
   if (texts.has_fixed_lenses) arguments.calibration.refinement = Refinement::kPlacesOnly;
   const bool is_files = !arguments.feed.left.empty();
   if (!texts.size.empty()) arguments.feed.device_size = ParseSize(texts.size, "--size");

@@ -43,18 +43,17 @@ std::vector<std::optional<View>> LookAt(const Sight& sight, const Board& board) 
   return views;
 }
 
-std::string RunningError(const ViewSelection& selection, const BoardLayout& layout) {
-  if (selection.shots().size() < kFewestForError) return "";
-  CalibrationOptions options;
-  std::vector<Corners> views;
-  for (const Shot& shot : selection.shots()) views.push_back(shot.views[0].corners);
-  try {
-    const LensFit fit =
-        FitLens(views, layout, selection.shots().front().views[0].size, options.lens);
-    return Figures("  error %.2f px", fit.error_px);
-  } catch (const FitFailed&) {
-    return "";
+/// The error of every camera so far, with the lens that is to be fitted; "?" where none fits yet.
+std::string RunningError(const std::vector<Shot>& shots, const BoardLayout& layout,
+                         const LensOptions& options) {
+  if (shots.size() < kFewestForError) return "";
+  std::string errors;
+  for (std::size_t camera = 0; camera < shots.front().views.size(); ++camera) {
+    const cv::Size size = shots.front().views[camera].size;
+    const auto error_px = FittedError_px(CornersOf(shots, camera), layout, size, options);
+    errors += (errors.empty() ? "" : ", ") + (error_px ? Figures("%.2f", *error_px) : "?");
   }
+  return "  error " + errors + " px";
 }
 
 std::string Tilt(const View& view) {
@@ -63,7 +62,8 @@ std::string Tilt(const View& view) {
                  std::abs(view.tilt_down_deg));
 }
 
-std::string Describe(const ViewSelection& selection, const BoardLayout& layout) {
+std::string Describe(const ViewSelection& selection, const BoardLayout& layout,
+                     const LensOptions& options) {
   const Shot& shot = selection.shots().back();
   const View& view = shot.views[0];
   std::string text = Figures("view %2zu  %s", selection.shots().size(), shot.name.c_str());
@@ -72,7 +72,7 @@ std::string Describe(const ViewSelection& selection, const BoardLayout& layout) 
                   100 * view.extent);
   text += "  back " + Tilt(view);
   text += Figures("  covered %.0f %%", 100 * selection.coverage(0).share());
-  text += RunningError(selection, layout);
+  text += RunningError(selection.shots(), layout, options);
   const auto advice = selection.Advice();
   return advice.empty() ? text : text + "  next: " + advice.front();
 }
@@ -126,7 +126,7 @@ class Collector {
       return;
     }
     if (collected_.first_bgr.empty()) collected_.first_bgr = sight.bgr;
-    out_ << Describe(collected_.selection, board_.layout) << std::endl;
+    out_ << Describe(collected_.selection, board_.layout, arguments_.calibration.lens) << std::endl;
     pictures_.WriteView(collected_.selection, sight.bgr, board_.layout);
   }
 

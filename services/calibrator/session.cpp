@@ -4,6 +4,7 @@
 
 #include "common/config/config.h"
 #include "common/program/command_line.h"
+#include "common/transport/url.h"
 #include "services/calibrator/collection.h"
 #include "services/calibrator/core/board_print.h"
 #include "services/calibrator/feeds/bus_feed.h"
@@ -23,33 +24,35 @@ std::unique_ptr<Feed> FileFeedOf(const FeedArguments& feed, Task task) {
       FilesOf(feed.left, "--left"), FilesOf(feed.right, "--right")});
 }
 
-std::unique_ptr<capture::Source> SourceOf(const FeedArguments& feed, const std::string& text,
-                                          const std::string& option) {
+capture::SourceConfig SourceConfigOf(const FeedArguments& feed, const std::string& text,
+                                     const std::string& option) {
   capture::SourceConfig config = ParseSource(text, option);
   config.width_px = feed.device_size.width;
   config.height_px = feed.device_size.height;
   config.fourcc = feed.device_fourcc;
-  const bool is_folder = config.kind == capture::SourceKind::kFolder;
-  // Pictures without times: only their order counts here.
-  config.rate_hz = is_folder && feed.device_rate_hz == 0.0 ? 1.0 : feed.device_rate_hz;
-  return OpenSource(config);
+  config.rate_hz = feed.device_rate_hz;
+  return config;
 }
 
 std::unique_ptr<Feed> SourceFeedOf(const FeedArguments& feed) {
-  auto source = SourceOf(feed, feed.source, "--source");
+  std::vector<capture::SourceConfig> configs{SourceConfigOf(feed, feed.source, "--source")};
   if (!feed.right_source.empty()) {
-    return std::make_unique<TwoSourceFeed>(std::move(source),
-                                           SourceOf(feed, feed.right_source, "--right-source"));
+    configs.push_back(SourceConfigOf(feed, feed.right_source, "--right-source"));
   }
-  return std::make_unique<SourceFeed>(std::move(source), feed.is_side_by_side
-                                                             ? PictureLayout::kSideBySide
-                                                             : PictureLayout::kOneCamera);
+  TimeByOrderUnlessAllHaveTimes(configs);
+  if (configs.size() == 2) {
+    return std::make_unique<TwoSourceFeed>(OpenSource(configs[0]), OpenSource(configs[1]));
+  }
+  return std::make_unique<SourceFeed>(OpenSource(configs[0]), feed.is_side_by_side
+                                                                  ? PictureLayout::kSideBySide
+                                                                  : PictureLayout::kOneCamera);
 }
 
 std::unique_ptr<Feed> BusFeedOf(const FeedArguments& feed, Task task) {
   transport::BusOptions options;
   options.url = feed.lcm_url;
-  options.deliver_every_message = feed.lcm_url.rfind("file://", 0) == 0;
+  const transport::Url url = transport::ResolveUrl(feed.lcm_url, options.receive_buffer_bytes);
+  options.deliver_every_message = url.provider == "file";
   return std::make_unique<BusFeed>(std::make_unique<transport::Bus>(options), feed.channel,
                                    task == Task::kStereo ? 2 : 1);
 }

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
+
+#include "services/calibrator/core/median.h"
 
 namespace deixis::calibrator {
 namespace {
 
-constexpr double kWorthAnotherModel = 1.02;
+constexpr double kGoodEnough = 1.02;  // Of an error, over the least.
 constexpr std::size_t kGroups = 5;
 constexpr std::size_t kFewestForGroups = 8;
 constexpr std::size_t kFewestAfterDropping = 5;
@@ -16,25 +19,45 @@ constexpr double kOutlying = 3.0;
 constexpr double kHarmless_px = 0.3;
 
 using Indices = std::vector<std::size_t>;
+using Models = std::vector<LensModel>;
 
-std::vector<Corners> CornersOf(const std::vector<Shot>& shots, std::size_t camera) {
-  std::vector<Corners> views;
-  for (const Shot& shot : shots) views.push_back(shot.views.at(camera).corners);
-  return views;
+// The simplest first.
+const Models kPinholeModels{LensModel::kPlumbBob, LensModel::kRational};
+const Models kAllModels{LensModel::kPlumbBob, LensModel::kRational, LensModel::kFisheye};
+
+cv::Size SizeOf(const std::vector<Shot>& shots, std::size_t camera) {
+  if (shots.empty()) throw FitFailed("no view of the board: show it");
+  return shots.front().views.at(camera).size;
 }
 
 LensOptions BestModel(const std::vector<Corners>& views, const BoardLayout& layout, cv::Size size,
-                      LensOptions options) {
-  LensOptions best = options;
-  std::optional<double> least_px;
-  for (const LensModel model : {LensModel::kPlumbBob, LensModel::kRational, LensModel::kFisheye}) {
+                      LensOptions options, const Models& models) {
+  std::vector<std::optional<double>> errors_px;
+  for (const LensModel model : models) {
     options.model = model;
-    const auto error_px = CrossValidatedError_px(views, layout, size, options);
-    if (!error_px || (least_px && *error_px * kWorthAnotherModel > *least_px)) continue;
-    least_px = error_px;
-    best = options;
+    errors_px.push_back(CrossValidatedError_px(views, layout, size, options));
   }
-  return best;
+  options.model = models[FirstGoodEnough(errors_px)];
+  return options;
+}
+
+LensOptions ChosenOptions(const std::vector<Shot>& shots, std::size_t camera,
+                          const BoardLayout& layout, const CalibrationOptions& options,
+                          const Models& models) {
+  if (options.choice == ModelChoice::kAsGiven) return options.lens;
+  return BestModel(CornersOf(shots, camera), layout, SizeOf(shots, camera), options.lens, models);
+}
+
+CameraCalibration CalibrateLens(const std::vector<Shot>& shots, std::size_t camera,
+                                const BoardLayout& layout, const LensOptions& options) {
+  const cv::Size size = SizeOf(shots, camera);
+  const std::vector<Corners> views = CornersOf(shots, camera);
+  CameraCalibration result;
+  result.options = options;
+  result.robust = FitLensRobustly(views, layout, size, options);
+  result.cross_validated_px =
+      CrossValidatedError_px(calibrator::At(views, result.robust.used), layout, size, options);
+  return result;
 }
 
 std::vector<CornerPair> PairsOf(const std::vector<Shot>& shots, const BoardLayout& layout) {
@@ -80,24 +103,38 @@ class PairFitter {
     return fit;
   }
 
+  /// The worst pair of `used`, when it is an outlier; none when the others determine no fit.
   std::optional<DroppedView> FindOutlier(const StereoFit& fit, const Indices& used) const {
-    std::vector<double> errors;
-    for (const std::size_t index : used) errors.push_back(MedianRows_px(fit, pairs_[index]));
+    const std::vector<double> errors = Errors_px(fit, used);
     const auto worst = std::max_element(errors.begin(), errors.end());
     if (*worst < std::max(kHarmless_px, kSuspicious * Median(errors))) return std::nullopt;
     const auto position = worst - errors.begin();
-    const std::size_t index = used[static_cast<std::size_t>(position)];
     Indices rest = used;
     rest.erase(rest.begin() + position);
-    const StereoFit without = Fit(rest);
-    std::vector<double> others;
-    for (const std::size_t other : rest) others.push_back(MedianRows_px(without, pairs_[other]));
-    const double error_px = MedianRows_px(without, pairs_[index]);
-    if (error_px < std::max(kHarmless_px, kOutlying * Median(others))) return std::nullopt;
-    return DroppedView{index, error_px, Median(others)};
+    const auto without = FitIfPossible(rest);
+    if (!without) return std::nullopt;
+    const std::size_t index = used[static_cast<std::size_t>(position)];
+    const double error_px = MedianRows_px(*without, pairs_[index]);
+    const double others_px = Median(Errors_px(*without, rest));
+    if (error_px < std::max(kHarmless_px, kOutlying * others_px)) return std::nullopt;
+    return DroppedView{index, error_px, others_px};
   }
 
  private:
+  std::optional<StereoFit> FitIfPossible(const Indices& indices) const {
+    try {
+      return Fit(indices);
+    } catch (const FitFailed&) {
+      return std::nullopt;
+    }
+  }
+
+  std::vector<double> Errors_px(const StereoFit& fit, const Indices& indices) const {
+    std::vector<double> errors;
+    for (const std::size_t index : indices) errors.push_back(MedianRows_px(fit, pairs_[index]));
+    return errors;
+  }
+
   const std::vector<CornerPair>& pairs_;
   const BoardLayout& layout_;
   const StereoCalibration& calibration_;
@@ -139,12 +176,11 @@ void Measure(const std::vector<CornerPair>& pairs, const BoardLayout& layout,
 
 StereoCalibration Calibrate(const std::vector<Shot>& shots, const BoardLayout& layout,
                             const CalibrationOptions& options) {
+  // One model for both: the files name it once.
+  const LensOptions lens = ChosenOptions(shots, 0, layout, options, kPinholeModels);
   StereoCalibration result;
-  result.left = CalibrateCamera(shots, 0, layout, options);
-  CalibrationOptions of_right = options;
-  of_right.lens = result.left.options;  // One model for both: the files name it once.
-  of_right.choice = ModelChoice::kAsGiven;
-  result.right = CalibrateCamera(shots, 1, layout, of_right);
+  result.left = CalibrateLens(shots, 0, layout, lens);
+  result.right = CalibrateLens(shots, 1, layout, lens);
   FitPairs(PairsOf(shots, layout), layout, options, result);
   return result;
 }
@@ -180,23 +216,35 @@ std::vector<Shot> At(const std::vector<Shot>& shots, const Indices& indices) {
 
 }  // namespace
 
+std::vector<Corners> CornersOf(const std::vector<Shot>& shots, std::size_t camera) {
+  std::vector<Corners> views;
+  for (const Shot& shot : shots) views.push_back(shot.views.at(camera).corners);
+  return views;
+}
+
+std::size_t FirstGoodEnough(const std::vector<std::optional<double>>& errors_px) {
+  std::optional<double> least_px;
+  for (const auto& error_px : errors_px) {
+    if (error_px) least_px = std::min(*error_px, least_px.value_or(*error_px));
+  }
+  const auto first =
+      std::find_if(errors_px.begin(), errors_px.end(), [&least_px](const auto& error_px) {
+        return error_px && *error_px <= kGoodEnough * *least_px;
+      });
+  return first == errors_px.end() ? 0 : static_cast<std::size_t>(first - errors_px.begin());
+}
+
 CameraCalibration CalibrateCamera(const std::vector<Shot>& shots, std::size_t camera,
                                   const BoardLayout& layout, const CalibrationOptions& options) {
-  if (shots.empty()) throw FitFailed("no view of the board: show it");
-  const std::vector<Corners> views = CornersOf(shots, camera);
-  const cv::Size size = shots.front().views.at(camera).size;
-  CameraCalibration result;
-  result.options = options.choice == ModelChoice::kByCrossValidation
-                       ? BestModel(views, layout, size, options.lens)
-                       : options.lens;
-  result.robust = FitLensRobustly(views, layout, size, result.options);
-  result.cross_validated_px = CrossValidatedError_px(calibrator::At(views, result.robust.used),
-                                                     layout, size, result.options);
-  return result;
+  return CalibrateLens(shots, camera, layout,
+                       ChosenOptions(shots, camera, layout, options, kAllModels));
 }
 
 StereoCalibration CalibrateStereo(const std::vector<Shot>& shots, const BoardLayout& layout,
                                   const CalibrationOptions& options) {
+  if (options.lens.model == LensModel::kFisheye) {
+    throw std::invalid_argument("a stereo calibration takes pinhole lenses, no fisheye");
+  }
   StereoCalibration result = Calibrate(shots, layout, options);
   Measure(PairsOf(shots, layout), layout, result);
   CalibrationOptions as_used = options;

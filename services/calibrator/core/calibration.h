@@ -10,8 +10,13 @@ namespace deixis::calibrator {
 
 enum class ModelChoice {
   kAsGiven,
-  kByCrossValidation  ///< The simplest one whose error on views left out is within 2 % of the best.
+  kByCrossValidation  ///< The simplest one whose error on views left out is within 2 % of the best;
+                      ///< of a stereo pair by its left camera, and no fisheye.
 };
+
+/// Which of some models, the simplest first, is the first whose error is within 2 % of the least;
+/// nothing = it could not be fitted. 0 when none could.
+std::size_t FirstGoodEnough(const std::vector<std::optional<double>>& errors_px);
 
 struct CalibrationOptions {
   LensOptions lens;
@@ -26,6 +31,9 @@ struct CameraCalibration {
   RobustLensFit robust;
   std::optional<double> cross_validated_px;  ///< Error on views that had no part in the fit.
 };
+
+/// What `camera` (0 = the only one, or the left one) saw in all `shots`.
+std::vector<Corners> CornersOf(const std::vector<Shot>& shots, std::size_t camera);
 
 /// `shots` by their `camera`. Throws FitFailed.
 CameraCalibration CalibrateCamera(const std::vector<Shot>& shots, std::size_t camera,
@@ -49,7 +57,8 @@ struct StereoCalibration {
   double median_square = 1.0;                    ///< Measured over true; 1 = the scale is right.
 };
 
-/// Throws FitFailed.
+/// For pinhole lenses: rectifying makes pinhole pictures, and the stereo driver reads no other
+/// ones. Throws FitFailed; std::invalid_argument when `options` ask for a fisheye.
 StereoCalibration CalibrateStereo(const std::vector<Shot>& shots, const BoardLayout& layout,
                                   const CalibrationOptions& options);
 

@@ -30,9 +30,11 @@ std::string IntrinsicsYaml(const StereoCalibration& calibration, const Notes& no
 /// R T (metres, right_from_left) R1 R2 P1 P2 Q, as OpenCV's stereo_calib writes them, and the size.
 std::string ExtrinsicsYaml(const StereoCalibration& calibration, const Notes& notes);
 
-/// Throws std::runtime_error with the cure unless all of `paths` can be written; files that are
-/// there are refused unless `may_replace`. Makes missing folders.
+/// What becomes of a file that is there already.
 enum class Existing { kKeep, kReplace };
+
+/// Throws std::runtime_error with the cure unless all of `paths` can be written: files that are
+/// there only with Existing::kReplace. Makes missing folders.
 void RequireWritable(const std::vector<std::filesystem::path>& paths, Existing existing);
 
 /// Writes all files under names of their own first, then gives them their names: a disk that is

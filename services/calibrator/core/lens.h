@@ -31,6 +31,8 @@ struct BoardPose {
   cv::Vec3d translation_m;
 };
 
+/// Where points of the board (metres, board frame) appear in the picture of a camera that sees the
+/// board at `pose`: distorted pixels, one per point. All must lie in front of the camera.
 std::vector<cv::Point2f> Project(const Lens& lens, const std::vector<cv::Point3f>& points_m,
                                  const BoardPose& pose);
 

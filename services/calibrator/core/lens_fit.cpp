@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "services/calibrator/core/median.h"
+
 namespace deixis::calibrator {
 namespace {
 
@@ -165,6 +167,15 @@ LensFit FitWithoutDeviations(const std::vector<Corners>& views, const BoardLayou
   return fit;
 }
 
+std::optional<LensFit> FitIfPossible(const std::vector<Corners>& views, const BoardLayout& layout,
+                                     cv::Size size, const LensOptions& options) {
+  try {
+    return FitWithoutDeviations(views, layout, size, options);
+  } catch (const FitFailed&) {
+    return std::nullopt;
+  }
+}
+
 /// Views in and out of group `group`.
 struct Split {
   std::vector<Corners> inside;
@@ -186,15 +197,8 @@ std::vector<double> ParametersOf(const Lens& lens) {
   return values;
 }
 
-std::vector<double> JackknifeDeviations(const std::vector<Corners>& views,
-                                        const BoardLayout& layout, cv::Size size,
-                                        const LensOptions& options) {
-  if (views.size() < kFewestForGroups) return {};
-  std::vector<std::vector<double>> fits;
-  for (std::size_t group = 0; group < kGroups; ++group) {
-    fits.push_back(ParametersOf(
-        FitWithoutDeviations(SplitOff(views, group).outside, layout, size, options).lens));
-  }
+/// The jackknife's standard deviations, of the parameters without one group each.
+std::vector<double> SpreadOf(const std::vector<std::vector<double>>& fits) {
   std::vector<double> deviations(fits.front().size(), 0.0);
   for (std::size_t p = 0; p < deviations.size(); ++p) {
     double mean = 0.0;
@@ -205,13 +209,26 @@ std::vector<double> JackknifeDeviations(const std::vector<Corners>& views,
   return deviations;
 }
 
+std::vector<double> JackknifeDeviations(const std::vector<Corners>& views,
+                                        const BoardLayout& layout, cv::Size size,
+                                        const LensOptions& options) {
+  if (views.size() < kFewestForGroups) return {};
+  std::vector<std::vector<double>> fits;
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    const auto fit = FitIfPossible(SplitOff(views, group).outside, layout, size, options);
+    if (!fit) return {};
+    fits.push_back(ParametersOf(fit->lens));
+  }
+  return SpreadOf(fits);
+}
+
 std::vector<std::size_t> Without(const std::vector<std::size_t>& indices, std::size_t position) {
   std::vector<std::size_t> rest = indices;
   rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(position));
   return rest;
 }
 
-/// The worst view of `result`, when it is an outlier.
+/// The worst view of `result`, when it is an outlier; none when the others determine no lens.
 std::optional<DroppedView> FindOutlier(const std::vector<Corners>& views, const BoardLayout& layout,
                                        cv::Size size, const LensOptions& options,
                                        const RobustLensFit& result) {
@@ -220,22 +237,16 @@ std::optional<DroppedView> FindOutlier(const std::vector<Corners>& views, const 
   if (*worst < std::max(kHarmless_px, kSuspicious * Median(errors))) return std::nullopt;
   const auto position = static_cast<std::size_t>(worst - errors.begin());
   const std::size_t index = result.used[position];
-  const LensFit without =
-      FitWithoutDeviations(At(views, Without(result.used, position)), layout, size, options);
-  const double others_px = Median(without.view_errors_px);
-  const double error_px = ReprojectionError_px(without.lens, layout, views[index]).value_or(1e6);
+  const auto without =
+      FitIfPossible(At(views, Without(result.used, position)), layout, size, options);
+  if (!without) return std::nullopt;
+  const double others_px = Median(without->view_errors_px);
+  const double error_px = ReprojectionError_px(without->lens, layout, views[index]).value_or(1e6);
   if (error_px < std::max(kHarmless_px, kOutlying * others_px)) return std::nullopt;
   return DroppedView{index, error_px, others_px};
 }
 
 }  // namespace
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<Corners> At(const std::vector<Corners>& all, const std::vector<std::size_t>& indices) {
   std::vector<Corners> chosen;
@@ -269,26 +280,30 @@ RobustLensFit FitLensRobustly(const std::vector<Corners>& views, const BoardLayo
   return result;
 }
 
+std::optional<double> FittedError_px(const std::vector<Corners>& views, const BoardLayout& layout,
+                                     cv::Size size, const LensOptions& options) {
+  const auto fit = FitIfPossible(views, layout, size, options);
+  if (!fit) return std::nullopt;
+  return fit->error_px;
+}
+
 std::optional<double> CrossValidatedError_px(const std::vector<Corners>& views,
                                              const BoardLayout& layout, cv::Size size,
                                              const LensOptions& options) {
   if (views.size() < kFewestForGroups) return std::nullopt;
   double sum = 0.0;
   double points = 0.0;
-  try {
-    for (std::size_t group = 0; group < kGroups; ++group) {
-      const Split split = SplitOff(views, group);
-      const Lens lens = FitWithoutDeviations(split.outside, layout, size, options).lens;
-      for (const Corners& corners : split.inside) {
-        const auto error_px = ReprojectionError_px(lens, layout, corners);
-        if (!error_px) return std::nullopt;
-        const auto count = static_cast<double>(corners.ids.size());
-        sum += *error_px * *error_px * count;
-        points += count;
-      }
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    const Split split = SplitOff(views, group);
+    const auto fit = FitIfPossible(split.outside, layout, size, options);
+    if (!fit) return std::nullopt;
+    for (const Corners& corners : split.inside) {
+      const auto error_px = ReprojectionError_px(fit->lens, layout, corners);
+      if (!error_px) return std::nullopt;
+      const auto count = static_cast<double>(corners.ids.size());
+      sum += *error_px * *error_px * count;
+      points += count;
     }
-  } catch (const FitFailed&) {
-    return std::nullopt;
   }
   return std::sqrt(sum / points);
 }

@@ -23,14 +23,16 @@ struct LensOptions {
 
 struct LensFit {
   Lens lens;
-  std::vector<double> deviations;      ///< Standard deviations of fx fy cx cy and the distortion.
+  std::vector<double> deviations;      ///< Standard deviations of fx fy cx cy and the distortion;
+                                       ///< empty = not known.
   std::vector<BoardPose> poses;        ///< One per view.
   std::vector<double> view_errors_px;  ///< Root mean square per view.
   double error_px = 0.0;               ///< Of all corners.
 };
 
 /// Zhang 2000, as OpenCV has it. `views`: three at least; throws FitFailed. Deviations are those of
-/// cv::calibrateCamera; of a fisheye, the jackknife's over groups of views (Efron 1982).
+/// cv::calibrateCamera; of a fisheye, the jackknife's over five groups of views (Efron 1982), not
+/// known of fewer than six views or when the others determine no lens without some group.
 LensFit FitLens(const std::vector<Corners>& views, const BoardLayout& layout, cv::Size size,
                 const LensOptions& options);
 
@@ -48,9 +50,14 @@ struct RobustLensFit {
 };
 
 /// Fits, and leaves out views whose leave-one-out error is far above the others', the worst one
-/// first; a third of all at most. Throws FitFailed.
+/// first; a third of all at most, and none without which the others determine no lens. Throws
+/// FitFailed.
 RobustLensFit FitLensRobustly(const std::vector<Corners>& views, const BoardLayout& layout,
                               cv::Size size, const LensOptions& options);
+
+/// The error of FitLens, without the time for deviations; nothing when it fails.
+std::optional<double> FittedError_px(const std::vector<Corners>& views, const BoardLayout& layout,
+                                     cv::Size size, const LensOptions& options);
 
 /// Root mean square error of views that had no part in the fit: five groups, each one measured with
 /// the lens of the four others. Nothing when there are fewer than six views or a fit fails.
@@ -60,7 +67,5 @@ std::optional<double> CrossValidatedError_px(const std::vector<Corners>& views,
 
 /// The views of `all` at `indices`.
 std::vector<Corners> At(const std::vector<Corners>& all, const std::vector<std::size_t>& indices);
-
-double Median(std::vector<double> values);  ///< 0 of nothing.
 
 }  // namespace deixis::calibrator

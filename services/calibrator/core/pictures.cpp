@@ -38,14 +38,9 @@ cv::Mat RectifiedPicture(const Lens& lens, const cv::Matx33d& rotation,
                          const cv::Matx34d& projection, const cv::Mat& bgr) {
   cv::Mat map_x;
   cv::Mat map_y;
-  if (lens.model == LensModel::kFisheye) {
-    cv::fisheye::initUndistortRectifyMap(lens.matrix, lens.distortion, rotation, projection,
-                                         lens.size, CV_32FC1, map_x, map_y);
-  } else {
-    const cv::Mat left_part = cv::Mat(projection).colRange(0, 3);
-    cv::initUndistortRectifyMap(lens.matrix, lens.distortion, rotation, left_part, lens.size,
-                                CV_32FC1, map_x, map_y);
-  }
+  const cv::Mat left_part = cv::Mat(projection).colRange(0, 3);
+  cv::initUndistortRectifyMap(lens.matrix, lens.distortion, rotation, left_part, lens.size,
+                              CV_32FC1, map_x, map_y);
   cv::Mat rectified;
   cv::remap(bgr, rectified, map_x, map_y, cv::INTER_LINEAR);
   return rectified;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/calibrator/core/median.h"
+
 namespace deixis::calibrator {
 namespace {
 
@@ -62,12 +64,6 @@ std::optional<double> WidthBetween(const cv::Mat& grey, cv::Point2d a, cv::Point
   if (reach_px < kLeastReach_px) return std::nullopt;
   const cv::Point2d across(-along.y / length, along.x / length);
   return RiseWidth_px(Profile(grey, 0.5 * (a + b), along, across, reach_px));
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -25,16 +25,6 @@ Data DataOf(const std::vector<CornerPair>& pairs, const BoardLayout& layout) {
   return data;
 }
 
-// With the lens known, the picture that a pinhole camera of the same matrix would have taken: what
-// OpenCV's fit for pinhole cameras takes, whatever the lens.
-void Straighten(std::vector<std::vector<cv::Point2f>>& pictures, Lens& lens) {
-  cv::Matx34d projection = cv::Matx34d::zeros();
-  for (int i = 0; i < 9; ++i) projection(i / 3, i % 3) = lens.matrix(i / 3, i % 3);
-  for (auto& points : pictures) points = Undistort(lens, points, cv::Matx33d::eye(), projection);
-  lens.model = LensModel::kPlumbBob;
-  lens.distortion.assign(5, 0.0);
-}
-
 int Flags(const LensOptions& options, Refinement refinement) {
   // Without the flag of the model, OpenCV takes k4 to k6 of a fixed lens for zero.
   int flags = options.model == LensModel::kRational ? cv::CALIB_RATIONAL_MODEL : 0;
@@ -95,17 +85,10 @@ StereoFit FitStereo(const std::vector<CornerPair>& pairs, const BoardLayout& lay
   StereoFit fit;
   fit.left = left;
   fit.right = right;
-  const bool is_fisheye = options.model == LensModel::kFisheye;
-  const Refinement possible = is_fisheye ? Refinement::kPlacesOnly : refinement;
   try {
-    Data data = DataOf(pairs, layout);
     Lens lenses[2] = {left, right};
-    if (is_fisheye) {
-      Straighten(data.left, lenses[0]);
-      Straighten(data.right, lenses[1]);
-    }
-    Fit(data, lenses[0], lenses[1], Flags(options, possible), fit);
-    if (possible == Refinement::kJoint) {
+    Fit(DataOf(pairs, layout), lenses[0], lenses[1], Flags(options, refinement), fit);
+    if (refinement == Refinement::kJoint) {
       fit.left = lenses[0];
       fit.right = lenses[1];
     }
@@ -121,18 +104,10 @@ StereoFit FitStereo(const std::vector<CornerPair>& pairs, const BoardLayout& lay
 
 Rectification Rectify(const StereoFit& fit, double alpha) {
   Rectification result;
-  if (fit.left.model == LensModel::kFisheye) {
-    cv::fisheye::stereoRectify(fit.left.matrix, fit.left.distortion, fit.right.matrix,
-                               fit.right.distortion, fit.left.size, fit.rotation, fit.translation_m,
-                               result.left_rotation, result.right_rotation, result.left_projection,
-                               result.right_projection, result.disparity_to_depth,
-                               cv::CALIB_ZERO_DISPARITY, fit.left.size, alpha);
-  } else {
-    cv::stereoRectify(fit.left.matrix, fit.left.distortion, fit.right.matrix, fit.right.distortion,
-                      fit.left.size, fit.rotation, fit.translation_m, result.left_rotation,
-                      result.right_rotation, result.left_projection, result.right_projection,
-                      result.disparity_to_depth, cv::CALIB_ZERO_DISPARITY, alpha, fit.left.size);
-  }
+  cv::stereoRectify(fit.left.matrix, fit.left.distortion, fit.right.matrix, fit.right.distortion,
+                    fit.left.size, fit.rotation, fit.translation_m, result.left_rotation,
+                    result.right_rotation, result.left_projection, result.right_projection,
+                    result.disparity_to_depth, cv::CALIB_ZERO_DISPARITY, alpha, fit.left.size);
   return result;
 }
 

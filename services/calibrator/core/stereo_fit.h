@@ -36,10 +36,10 @@ struct StereoFit {
 /// What the two lenses may do while the cameras' places are fitted.
 enum class Refinement {
   kPlacesOnly,  ///< Stay as given.
-  kJoint        ///< Be fitted again, together. Not for the fisheye model.
+  kJoint        ///< Be fitted again, together.
 };
 
-/// Throws FitFailed.
+/// `left`, `right`: pinhole lenses of the model in `options`. Throws FitFailed.
 StereoFit FitStereo(const std::vector<CornerPair>& pairs, const BoardLayout& layout,
                     const Lens& left, const Lens& right, const LensOptions& options,
                     Refinement refinement);

@@ -38,8 +38,8 @@ class ViewSelection {
  public:
   ViewSelection(const SelectionConfig& config, std::size_t cameras);
 
-  /// Keeps `shot` when it is accepted. Views of cameras that did not find the board are given as
-  /// nothing.
+  /// Judges what the cameras saw at `time`, one of `views` each, nothing where the board was not
+  /// found; when it is accepted, keeps it as a shot called `name`.
   Judgement Offer(const std::string& name, Timestamp time,
                   const std::vector<std::optional<View>>& views);
 

@@ -109,14 +109,20 @@ std::vector<double> Rows(const StereoFit& fit, const std::vector<CornerPair>& pa
   return rows;
 }
 
-/// Root mean square error of one camera over all pairs, each with the pose that suits it best.
-double LensError_px(const Lens& lens, const std::vector<CornerPair>& pairs, bool is_left,
+/// One camera's corners of all pairs: `whose` is &CornerPair::first (left) or second (right).
+std::vector<Corners> CornersOf(const std::vector<CornerPair>& pairs, Corners CornerPair::*whose) {
+  std::vector<Corners> views;
+  for (const CornerPair& pair : pairs) views.push_back(pair.*whose);
+  return views;
+}
+
+/// Root mean square error of one camera over all views, each with the pose that suits it best.
+double LensError_px(const Lens& lens, const std::vector<Corners>& views,
                     const BoardLayout& layout) {
   double sum = 0.0;
-  for (const CornerPair& pair : pairs) {
-    const double error_px =
-        ReprojectionError_px(lens, layout, is_left ? pair.first : pair.second).value_or(1e3);
-    sum += error_px * error_px / static_cast<double>(pairs.size());
+  for (const Corners& view : views) {
+    const double error_px = ReprojectionError_px(lens, layout, view).value_or(1e3);
+    sum += error_px * error_px / static_cast<double>(views.size());
   }
   return std::sqrt(sum);
 }
@@ -146,8 +152,9 @@ void Evaluate(const std::vector<Scene>& scenes, Procedure procedure, const Board
   const auto pairs = CornersOf(scenes, procedure);
   const char* name = NameOf(procedure);
   std::cout << Figures("%s,all,fit,%.4f,%.4f,%.4f\n", name,
-                       LensError_px(fit.left, pairs, true, layout),
-                       LensError_px(fit.right, pairs, false, layout), fit.error_px);
+                       LensError_px(fit.left, CornersOf(pairs, &CornerPair::first), layout),
+                       LensError_px(fit.right, CornersOf(pairs, &CornerPair::second), layout),
+                       fit.error_px);
   std::cout << Figures("%s,all,place,%.6f,%.4f,%.2f\n", name, cv::norm(fit.translation_m),
                        SampleEpipolarError_px(fit, pairs), fit.left.matrix(0, 0));
   Print("fitted", name, Summarise(Rows(fit, pairs)));

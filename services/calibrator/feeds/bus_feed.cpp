@@ -29,14 +29,20 @@ BusFeed::BusFeed(std::unique_ptr<transport::Bus> bus, const std::string& channel
 }
 
 void BusFeed::Keep(Timestamp time, std::vector<cv::Mat> bgr) {
-  newest_ = Sight{"picture " + std::to_string(++pictures_), time, std::move(bgr)};
+  waiting_.push_back({"picture " + std::to_string(++pictures_), time, std::move(bgr)});
 }
 
 Take BusFeed::Next() {
-  bus_->Handle(kWait);
-  if (newest_) return {capture::SourceState::kPicture, std::exchange(newest_, std::nullopt)};
-  const bool is_over = bus_->is_exhausted();
-  return {is_over ? capture::SourceState::kFinished : capture::SourceState::kWaiting, std::nullopt};
+  // One call hands over all pictures of a log that are due by now.
+  if (waiting_.empty()) bus_->Handle(kWait);
+  if (waiting_.empty()) {
+    const bool is_over = bus_->is_exhausted();
+    return {is_over ? capture::SourceState::kFinished : capture::SourceState::kWaiting,
+            std::nullopt};
+  }
+  Sight sight = std::move(waiting_.front());
+  waiting_.pop_front();
+  return {capture::SourceState::kPicture, std::move(sight)};
 }
 
 FeedKind BusFeed::kind() const { return bus_->is_live() ? FeedKind::kLive : FeedKind::kRecording; }

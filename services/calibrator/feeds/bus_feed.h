@@ -1,4 +1,5 @@
 #pragma once
+#include <deque>
 #include <memory>
 
 #include "common/transport/bus.h"
@@ -6,7 +7,8 @@
 
 namespace deixis::calibrator {
 
-/// The newest picture, or pair of pictures, of a channel of the bus, or all those of a log.
+/// The newest picture, or pair of pictures, of a channel of the bus; every one where the bus
+/// delivers every message, as from a log.
 class BusFeed final : public Feed {
  public:
   /// `cameras`: 1 = any picture, 2 = pairs (bot_core.images_t with LEFT and RIGHT). Throws
@@ -22,7 +24,7 @@ class BusFeed final : public Feed {
 
   std::unique_ptr<transport::Bus> bus_;
   std::string channel_;
-  std::optional<Sight> newest_;
+  std::deque<Sight> waiting_;  ///< More than one only where every message is delivered.
   int pictures_ = 0;
 };
 

@@ -1,23 +1,25 @@
 #include "services/calibrator/feeds/source_feed.h"
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <filesystem>
 #include <opencv2/core/utils/logger.hpp>
 #include <thread>
+
+#include "common/capture/system_clocks.h"
+#include "services/calibrator/core/figures.h"
 
 namespace deixis::calibrator {
 namespace {
 
-/// Pictures of two live cameras that lie farther apart do not show one moment; a board that is held
-/// still is asked for besides.
+/// Pictures that lie farther apart do not show one moment; a board that is held still is asked for
+/// besides.
 constexpr double kMostApart_s = 0.040;
+/// Of the time to the next picture: from half of it on, a recorded picture whose partner cannot be
+/// read would take its partner's neighbour.
+constexpr double kMostOfPeriod = 0.45;
+constexpr double kRateOfOrder_hz = 1.0;
 constexpr std::chrono::milliseconds kWait{2};
-
-template <typename Clock>
-Timestamp Now() {
-  const auto since_start = Clock::now().time_since_epoch();
-  return {std::chrono::duration_cast<std::chrono::microseconds>(since_start).count()};
-}
 
 std::vector<cv::Mat> Split(const cv::Mat& bgr, PictureLayout layout) {
   if (layout == PictureLayout::kOneCamera) return {bgr};
@@ -34,6 +36,24 @@ std::string TroubleOf(const capture::SourceStatus& status) {
 
 FeedKind KindOf(const capture::Source& source) {
   return source.status().is_live ? FeedKind::kLive : FeedKind::kRecording;
+}
+
+double MostApart_s(const std::array<capture::Grab, 2>& grabs) {
+  double most_s = kMostApart_s;
+  for (const capture::Grab& grab : grabs) {
+    if (!grab.picture || grab.picture->period_s <= 0.0) continue;
+    most_s = std::min(most_s, kMostOfPeriod * grab.picture->period_s);
+  }
+  return most_s;
+}
+
+bool IsRecording(const capture::SourceConfig& config) {
+  return config.kind == capture::SourceKind::kVideo || config.kind == capture::SourceKind::kFolder;
+}
+
+bool LacksTimes(const capture::SourceConfig& config) {
+  return config.kind == capture::SourceKind::kFolder &&
+         !std::filesystem::exists(std::filesystem::path(config.path) / "times.csv");
 }
 
 void WaitIfLive(const capture::Source& source) {
@@ -64,36 +84,50 @@ TwoSourceFeed::TwoSourceFeed(std::unique_ptr<capture::Source> left,
   if (KindOf(*sources_[0]) != KindOf(*sources_[1])) {
     throw config::ConfigError("--source and --right-source must both be live or both recordings");
   }
-}
-
-bool TwoSourceFeed::Fetch(std::size_t side) {
-  if (waiting_[side]) return true;
-  capture::Grab grab = sources_[side]->Next();
-  waiting_[side] = std::move(grab.picture);
-  return grab.state != capture::SourceState::kFinished;
-}
-
-// Live: of two pictures that do not show one moment, the older one is given up.
-bool TwoSourceFeed::BelongTogether() {
-  if (kind() == FeedKind::kRecording) return true;
-  const double apart_s = SecondsBetween(waiting_[0]->time, waiting_[1]->time);
-  if (std::abs(apart_s) <= kMostApart_s) return true;
-  waiting_[apart_s > 0.0 ? 0 : 1].reset();
-  ++unpaired_;
-  return false;
+  std::array<capture::Grab, 2> first{sources_[0]->Next(), sources_[1]->Next()};
+  most_apart_s_ = MostApart_s(first);
+  matcher_ = TimeMatcher<capture::Picture, capture::Picture>(most_apart_s_);
+  for (std::size_t side = 0; side < first.size(); ++side) Keep(side, std::move(first[side]));
 }
 
 Take TwoSourceFeed::Next() {
-  if (!Fetch(0) || !Fetch(1)) return {capture::SourceState::kFinished, std::nullopt};
-  if (!waiting_[0] || !waiting_[1] || !BelongTogether()) {
-    WaitIfLive(*sources_[0]);
-    return {capture::SourceState::kWaiting, std::nullopt};
+  for (std::size_t side = 0; side < states_.size(); ++side) Fetch(side);
+  if (auto match = matcher_.Next()) {
+    return {capture::SourceState::kPicture, Sight{"pair " + std::to_string(++pairs_),
+                                                  match->first_time,
+                                                  {match->first.bgr, match->second.bgr}}};
   }
-  Sight sight{
-      "pair " + std::to_string(++pairs_), waiting_[0]->time, {waiting_[0]->bgr, waiting_[1]->bgr}};
-  waiting_[0].reset();
-  waiting_[1].reset();
-  return {capture::SourceState::kPicture, std::move(sight)};
+  if (HasEnded(0) || HasEnded(1)) {
+    matcher_.Finish();
+    return {capture::SourceState::kFinished, std::nullopt};
+  }
+  WaitIfLive(*sources_[0]);
+  return {capture::SourceState::kWaiting, std::nullopt};
+}
+
+// Of a live camera the newest picture is wanted, of a recording the next one.
+void TwoSourceFeed::Fetch(std::size_t side) {
+  if (states_[side] == capture::SourceState::kFinished) return;
+  if (kind() == FeedKind::kLive || !IsWaiting(side)) Keep(side, sources_[side]->Next());
+}
+
+void TwoSourceFeed::Keep(std::size_t side, capture::Grab grab) {
+  states_[side] = grab.state;
+  if (!grab.picture) return;
+  const Timestamp time = grab.picture->time;
+  if (side == 0) {
+    matcher_.AddFirst(time, std::move(*grab.picture));
+  } else {
+    matcher_.AddSecond(time, std::move(*grab.picture));
+  }
+}
+
+bool TwoSourceFeed::IsWaiting(std::size_t side) const {
+  return side == 0 ? matcher_.first_waits() : matcher_.second_waits();
+}
+
+bool TwoSourceFeed::HasEnded(std::size_t side) const {
+  return states_[side] == capture::SourceState::kFinished && !IsWaiting(side);
 }
 
 FeedKind TwoSourceFeed::kind() const { return KindOf(*sources_[0]); }
@@ -103,8 +137,17 @@ std::string TwoSourceFeed::trouble() const {
     const std::string trouble = TroubleOf(source->status());
     if (!trouble.empty()) return trouble;
   }
-  if (unpaired_ == 0) return "";
-  return std::to_string(unpaired_) + " pictures had none of the other camera within 40 ms";
+  const std::int64_t unpaired = matcher_.unmatched_first() + matcher_.unmatched_second();
+  if (unpaired == 0) return "";
+  return std::to_string(unpaired) +
+         Figures(" pictures had none of the other camera within %.0f ms", 1e3 * most_apart_s_);
+}
+
+void TimeByOrderUnlessAllHaveTimes(std::vector<capture::SourceConfig>& configs) {
+  if (std::none_of(configs.begin(), configs.end(), LacksTimes)) return;
+  for (capture::SourceConfig& config : configs) {
+    if (IsRecording(config) && config.rate_hz == 0.0) config.rate_hz = kRateOfOrder_hz;
+  }
 }
 
 capture::SourceConfig ParseSource(const std::string& text, const std::string& option) {
@@ -128,8 +171,7 @@ std::unique_ptr<capture::Source> OpenSource(const capture::SourceConfig& config)
   config::Faults faults;
   config.Check(faults);
   faults.ThrowIfAny();
-  return capture::MakeSource(config,
-                             {Now<std::chrono::system_clock>, Now<std::chrono::steady_clock>});
+  return capture::MakeSource(config, capture::SystemClocks());
 }
 
 }  // namespace deixis::calibrator

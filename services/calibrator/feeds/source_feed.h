@@ -1,5 +1,8 @@
 #pragma once
+#include <array>
+
 #include "common/capture/sources.h"
+#include "common/time/time_matcher.h"
 #include "services/calibrator/feeds/feed.h"
 
 namespace deixis::calibrator {
@@ -25,7 +28,8 @@ class SourceFeed final : public Feed {
   int pictures_ = 0;
 };
 
-/// Two sources together: recordings picture by picture, live cameras by their times.
+/// Two sources together, their pictures paired by time: recordings within half a period (a picture
+/// that cannot be read is missed on its own side only), both they and live cameras within 40 ms.
 class TwoSourceFeed final : public Feed {
  public:
   /// Throws ConfigError when one is live and the other is not.
@@ -36,14 +40,22 @@ class TwoSourceFeed final : public Feed {
   std::string trouble() const override;
 
  private:
-  bool Fetch(std::size_t side);  ///< False when the source is at its end.
-  bool BelongTogether();
+  void Fetch(std::size_t side);
+  void Keep(std::size_t side, capture::Grab grab);
+  bool IsWaiting(std::size_t side) const;
+  bool HasEnded(std::size_t side) const;
 
-  std::vector<std::unique_ptr<capture::Source>> sources_;
-  std::vector<std::optional<capture::Picture>> waiting_{2};
+  std::vector<std::unique_ptr<capture::Source>> sources_;  ///< Left, right.
+  std::array<capture::SourceState, 2> states_{};           ///< What each one said last.
+  double most_apart_s_ = 0.0;
+  TimeMatcher<capture::Picture, capture::Picture> matcher_{0.0};
   int pairs_ = 0;
-  int unpaired_ = 0;
 };
+
+/// When one of `configs` is a folder that does not say when its pictures were taken, gives all the
+/// recordings among them one picture per second, since only their order counts then. A rate that is
+/// set stays.
+void TimeByOrderUnlessAllHaveTimes(std::vector<capture::SourceConfig>& configs);
 
 /// "device:0", "video:walk.mp4", "folder:DIR", "url:rtsp://..." as a source's configuration.
 /// Throws ConfigError.

@@ -67,6 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                       "camera --board 9x6 --square 0.02 --pictures a --source device:0 -o c",
                       "stereo --board 9x6 --square 0.02 --left a -o c",
                       "stereo --board 9x6 --square 0.02 --source device:0 -o c",
+                      "stereo --board 9x6 --square 0.02 --left a --right b --model fisheye -o c",
                       "camera --charuco 7x5 --square 0.02 --marker 0.03 --pictures a -o c",
                       "board --board 9x6 --square 0.02 --print b.doc"));
 

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
+
 #include "services/calibrator/core/verdict.h"
 #include "test/services/calibrator/rendered_board.h"
 
@@ -9,8 +11,10 @@ namespace deixis::calibrator::test {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 constexpr double kBaseline_m = 0.12;
 const cv::Vec3d kTurn(0.01, 0.03, -0.015);
@@ -124,6 +128,49 @@ TEST(CameraCalibration, TheSimplestModelThatServesIsChosen) {
   EXPECT_LT(*result.cross_validated_px, 0.2);
 }
 
+TEST(CameraCalibration, OfTwoModelsWithin2PercentOfTheBestTheSimplerIsChosen) {
+  EXPECT_EQ(FirstGoodEnough({1.0, 0.985, 0.975}), 1u);
+  EXPECT_EQ(FirstGoodEnough({1.0, 0.99, 0.985}), 0u);
+  EXPECT_EQ(FirstGoodEnough({1.0, 0.99, 0.5}), 2u);
+}
+
+TEST(CameraCalibration, AModelThatCouldNotBeFittedIsNotChosen) {
+  EXPECT_EQ(FirstGoodEnough({std::nullopt, 2.0, 1.0}), 2u);
+  EXPECT_EQ(FirstGoodEnough({std::nullopt, 1.0, std::nullopt}), 1u);
+  EXPECT_EQ(FirstGoodEnough({std::nullopt, std::nullopt, std::nullopt}), 0u);
+}
+
+TEST(CameraCalibration, AFisheyeIsChosenForOneCameraButNeverForAPair) {
+  Rig rig;
+  Lens fisheye = WideLens();
+  fisheye.model = LensModel::kFisheye;
+  fisheye.matrix(0, 0) = fisheye.matrix(1, 1) = 200.0;
+  fisheye.distortion = {-0.1, 0.03, -0.02, 0.01};
+  cv::RNG random(11);
+  for (const BoardPose& pose : Poses(rig.board.layout.size_m, 0.12, 7)) {
+    const auto left = ProjectedCorners(fisheye, rig.board.layout, pose, 0.02, random);
+    const auto right = ProjectedCorners(fisheye, rig.board.layout,
+                                        SeenFromRight(pose, kBaseline_m, kTurn), 0.02, random);
+    rig.selection.Offer("pair", {}, {ViewOf(left), ViewOf(right)});
+  }
+  CalibrationOptions options;
+  options.choice = ModelChoice::kByCrossValidation;
+  const auto& shots = rig.selection.shots();
+  EXPECT_EQ(CalibrateCamera(shots, 0, rig.board.layout, options).options.model,
+            LensModel::kFisheye);
+  EXPECT_NE(CalibrateStereo(shots, rig.board.layout, options).left.options.model,
+            LensModel::kFisheye);
+}
+
+TEST(StereoCalibration, TakesNoFisheye) {
+  Rig rig;
+  Show(rig, 8);
+  CalibrationOptions options;
+  options.lens.model = LensModel::kFisheye;
+  EXPECT_THROW(CalibrateStereo(rig.selection.shots(), rig.board.layout, options),
+               std::invalid_argument);
+}
+
 TEST(CameraCalibration, ABoardThatWasNeverTiltedIsNotEnough) {
   const Board board = MakeBoard({});
   ViewSelection selection({}, 1);
@@ -146,6 +193,43 @@ TEST(CameraCalibration, OneCornerOfThePictureIsNotEnough) {
   little.Add(rig.selection.shots()[0].views[0]);
   const auto result = CalibrateCamera(rig.selection.shots(), 0, rig.board.layout, {});
   EXPECT_THAT(FaultsOf(result, little, "", {}), Contains(HasSubstr("covered")));
+}
+
+TEST(CameraCalibration, AFocalLengthOfUnknownCertaintyIsRefused) {
+  Rig rig;
+  Show(rig, 12);
+  auto result = CalibrateCamera(rig.selection.shots(), 0, rig.board.layout, {});
+  ASSERT_THAT(FaultsOf(result, rig.selection.coverage(0), "", {}), IsEmpty());
+  result.robust.fit.deviations.clear();
+  EXPECT_THAT(FaultsOf(result, rig.selection.coverage(0), "", {}),
+              ElementsAre(HasSubstr("how certain the focal length is cannot be told")));
+}
+
+TEST(StereoCalibration, EveryPartOfItIsJudged) {
+  Rig rig;
+  Show(rig, 12);
+  const auto good = CalibrateStereo(rig.selection.shots(), rig.board.layout, {});
+  const auto faults_when = [&](const std::function<void(StereoCalibration&)>& spoil) {
+    StereoCalibration spoilt = good;
+    spoil(spoilt);
+    return FaultsOf(spoilt, rig.selection, {});
+  };
+  EXPECT_THAT(faults_when([](auto& spoilt) { spoilt.fit.left.matrix(0, 2) = 0.0; }),
+              ElementsAre(StartsWith("left, fitted with the right one: the principal point")));
+  EXPECT_THAT(faults_when([](auto& spoilt) { spoilt.fit.right.matrix(0, 2) = 0.0; }),
+              ElementsAre(StartsWith("right, fitted with the left one: the principal point")));
+  EXPECT_THAT(faults_when([](auto& spoilt) { spoilt.used.resize(7); }),
+              ElementsAre(StartsWith("7 pairs are too few")));
+  EXPECT_THAT(faults_when([](auto& spoilt) {
+                spoilt.fit.translation_m = {-0.1, 0.2, 0.0};
+              }),
+              ElementsAre(StartsWith("the cameras stand one above the other")));
+  EXPECT_THAT(faults_when([](auto& spoilt) { spoilt.fit.error_px = 1.1; }),
+              ElementsAre(StartsWith("a stereo reprojection error of 1.10 px")));
+  EXPECT_THAT(faults_when([](auto& spoilt) { spoilt.rows_px.median = 1.1; }),
+              ElementsAre(StartsWith("rows differ by 1.10 px")));
+  EXPECT_THAT(faults_when([](auto& spoilt) { spoilt.median_square = 1.06; }),
+              ElementsAre(StartsWith("squares are measured 6.0 % off")));
 }
 
 TEST(CameraCalibration, ALargeErrorIsRefused) {

@@ -15,7 +15,9 @@
 namespace deixis::calibrator::test {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Pair;
 
 cv::Mat Picture(int value, cv::Size size = {64, 48}) {
   return {size, CV_8UC3, cv::Scalar::all(value)};
@@ -90,24 +92,70 @@ TEST_F(CalibratorFeeds, APictureOfTwoCamerasIsCutInTwo) {
   EXPECT_EQ(sight->bgr[1].at<cv::Vec3b>(0, 0)[0], 200);
 }
 
-TEST_F(CalibratorFeeds, TwoRecordingsGoTogetherPictureByPicture) {
-  for (const char* side : {"left", "right"}) {
-    std::filesystem::create_directories(folder_.path() / side);
-    for (int i = 0; i < 2; ++i) {
-      Write(std::string(side) + "/" + std::to_string(i) + ".png",
-            Picture(10 * i + (side[0] == 'r' ? 100 : 0)));
+/// Two folders of pictures, those of the right camera lighter by 100 grey levels.
+class CalibratorTwoSourceFeed : public CalibratorFeeds {
+ protected:
+  void SetUp() override {
+    for (const char* side : {"left", "right"}) {
+      std::filesystem::create_directories(folder_.path() / side);
+      for (int i = 0; i < 5; ++i) {
+        Write(std::string(side) + "/" + std::to_string(i) + ".png",
+              Picture(10 * i + (side[0] == 'r' ? 100 : 0)));
+      }
     }
   }
-  auto left = ParseSource("folder:" + Path("left"), "--source");
-  auto right = ParseSource("folder:" + Path("right"), "--right-source");
-  left.rate_hz = right.rate_hz = 1.0;
-  TwoSourceFeed feed(OpenSource(left), OpenSource(right));
-  feed.Next();
-  const auto sight = feed.Next().sight;
-  ASSERT_TRUE(sight);
-  EXPECT_EQ(sight->bgr[0].at<cv::Vec3b>(0, 0)[0], 10);
-  EXPECT_EQ(sight->bgr[1].at<cv::Vec3b>(0, 0)[0], 110);
-  EXPECT_EQ(feed.Next().state, capture::SourceState::kFinished);
+  TwoSourceFeed Open(double rate_hz) const {
+    std::vector<capture::SourceConfig> configs{
+        ParseSource("folder:" + Path("left"), "--source"),
+        ParseSource("folder:" + Path("right"), "--right-source")};
+    for (auto& config : configs) config.rate_hz = rate_hz;
+    TimeByOrderUnlessAllHaveTimes(configs);
+    return {OpenSource(configs[0]), OpenSource(configs[1])};
+  }
+  /// Which picture of the left camera came with which one of the right camera.
+  static std::vector<std::pair<int, int>> PairsOf(TwoSourceFeed& feed) {
+    std::vector<std::pair<int, int>> pairs;
+    for (Take take = feed.Next(); take.state != capture::SourceState::kFinished;
+         take = feed.Next()) {
+      if (!take.sight) continue;
+      const auto grey = [&take](std::size_t side) {
+        return int{take.sight->bgr.at(side).at<cv::Vec3b>(0, 0)[0]};
+      };
+      pairs.emplace_back(grey(0) / 10, (grey(1) - 100) / 10);
+    }
+    return pairs;
+  }
+};
+
+TEST_F(CalibratorTwoSourceFeed, RecordingsGoTogetherPictureByPicture) {
+  TwoSourceFeed feed = Open(0.0);
+  EXPECT_THAT(PairsOf(feed),
+              ElementsAre(Pair(0, 0), Pair(1, 1), Pair(2, 2), Pair(3, 3), Pair(4, 4)));
+  EXPECT_EQ(feed.trouble(), "");
+}
+
+TEST_F(CalibratorTwoSourceFeed, APictureThatCannotBeReadShiftsNoOther) {
+  for (const double rate_hz : {0.0, 30.0}) {
+    folder_.Write("left/1.png", "no picture");
+    folder_.Write("left/2.png", "no picture");
+    TwoSourceFeed feed = Open(rate_hz);
+    EXPECT_THAT(PairsOf(feed), ElementsAre(Pair(0, 0), Pair(3, 3), Pair(4, 4))) << rate_hz;
+    EXPECT_THAT(feed.trouble(), HasSubstr("2 pictures could not be read"));
+  }
+}
+
+TEST_F(CalibratorTwoSourceFeed, RecordingsWithTimesGoTogetherByThem) {
+  folder_.Write("left/times.csv", "file,time_s\n0.png,0\n1.png,0.1\n3.png,0.3\n");
+  folder_.Write("right/times.csv", "file,time_s\n0.png,7\n2.png,7.2\n3.png,7.301\n");
+  TwoSourceFeed feed = Open(0.0);
+  EXPECT_THAT(PairsOf(feed), ElementsAre(Pair(0, 0), Pair(3, 3)));
+  EXPECT_THAT(feed.trouble(), HasSubstr("2 pictures had none of the other camera within 40 ms"));
+}
+
+TEST_F(CalibratorTwoSourceFeed, OfTimesThatOnlyOneRecordingHasNothingIsMade) {
+  folder_.Write("left/times.csv", "file,time_s\n0.png,0\n1.png,0.1\n2.png,0.2\n");
+  TwoSourceFeed feed = Open(0.0);
+  EXPECT_THAT(PairsOf(feed), ElementsAre(Pair(0, 0), Pair(1, 1), Pair(2, 2)));
 }
 
 TEST_F(CalibratorFeeds, ASourceOfNoKnownKindIsRefused) {
@@ -125,6 +173,24 @@ TEST_F(CalibratorFeeds, TheNewestPictureOfTheBusIsTaken) {
   ASSERT_TRUE(sight);
   EXPECT_EQ(sight->time.microseconds, 2);
   EXPECT_EQ(sight->bgr[0].at<cv::Vec3b>(0, 0)[0], 20);
+  EXPECT_EQ(feed.Next().state, capture::SourceState::kWaiting);
+}
+
+TEST_F(CalibratorFeeds, EveryPictureOfALogIsTakenHoweverManyAreDueAtOnce) {
+  transport::BusOptions options = deixis::test::Memory();
+  options.deliver_every_message = true;
+  auto bus = std::make_unique<transport::Bus>(options);
+  transport::Bus& publisher = *bus;
+  BusFeed feed(std::move(bus), "CAMERA", 1);
+  for (int i = 1; i <= 3; ++i) {
+    publisher.Publish("CAMERA", images::Image{{i}, "camera", Picture(10 * i)});
+  }
+  for (int i = 1; i <= 3; ++i) {
+    const auto sight = feed.Next().sight;
+    ASSERT_TRUE(sight) << i;
+    EXPECT_EQ(sight->time.microseconds, i);
+    EXPECT_EQ(sight->bgr[0].at<cv::Vec3b>(0, 0)[0], 10 * i);
+  }
   EXPECT_EQ(feed.Next().state, capture::SourceState::kWaiting);
 }
 

@@ -107,6 +107,44 @@ TEST(LensFit, KeepsViewsThatAreAlike) {
   EXPECT_TRUE(result.dropped.empty());
 }
 
+/// Views from so far away, parallel to the picture, that by themselves they determine no fisheye.
+std::vector<Corners> FarViews(const Lens& lens, const BoardLayout& layout, int count) {
+  cv::RNG random(1);
+  std::vector<Corners> views;
+  for (int i = 0; i < count; ++i) {
+    const BoardPose pose{{0, 0, 0}, {-0.1 + 0.12 * i, -0.06, 6.0}};
+    views.push_back(ProjectedCorners(lens, layout, pose, 0.6, random));
+  }
+  return views;
+}
+
+TEST(LensFit, DeviationsAreNotKnownWhenSomeViewsAloneDetermineTheLens) {
+  const Board board = MakeBoard({});
+  const Lens lens = LensOf(LensModel::kFisheye);
+  const auto near = ViewsOf(lens, board.layout, 5);
+  auto views = FarViews(lens, board.layout, 4);
+  ASSERT_FALSE(FittedError_px(views, board.layout, lens.size, {LensModel::kFisheye}));
+  views.insert(views.begin(), near[1]);  // The first and the last one are of one group.
+  views.push_back(near[4]);
+  const LensFit fit = FitLens(views, board.layout, lens.size, {LensModel::kFisheye});
+  EXPECT_LT(fit.error_px, 1.0);
+  EXPECT_TRUE(fit.deviations.empty());
+}
+
+TEST(LensFit, KeepsTheOnlyViewThatDeterminesTheLensHoweverPoorItIs) {
+  const Board board = MakeBoard({});
+  const Lens lens = LensOf(LensModel::kFisheye);
+  auto views = FarViews(lens, board.layout, 6);
+  ASSERT_FALSE(FittedError_px(views, board.layout, lens.size, {LensModel::kFisheye}));
+  cv::RNG random(1);
+  const BoardPose pose = Poses(board.layout.size_m, 0.45, 2)[1];
+  views.push_back(ProjectedCorners(lens, board.layout, pose, 1.2, random));
+  const auto result = FitLensRobustly(views, board.layout, lens.size, {LensModel::kFisheye});
+  const auto& errors = result.fit.view_errors_px;
+  EXPECT_GT(errors.back(), 1.8 * errors.front());
+  EXPECT_TRUE(result.dropped.empty());
+}
+
 TEST(LensFit, TwoViewsAreTooFew) {
   const Board board = MakeBoard({});
   EXPECT_THROW(FitLens(ViewsOf(WideLens(), board.layout, 2), board.layout, {640, 480}, {}),

@@ -2,11 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "common/capture/calibration.h"
+#include "common/messages/image.h"
+#include "common/transport/bus.h"
 #include "test/services/calibrator/rendered_board.h"
 #include "test/support/temporary_folder.h"
 
@@ -15,6 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 using deixis::test::FileContent;
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -136,6 +141,27 @@ TEST_F(CalibratorSession, FindsWhereTheCamerasStand) {
   EXPECT_FALSE(cv::imread(Path("pictures/rectified.png")).empty());
 }
 
+TEST_F(CalibratorSession, TheErrorSoFarIsThatOfBothCameras) {
+  Write("left", {Chessboard().left.begin(), Chessboard().left.begin() + 4});
+  Write("right", {Chessboard().right.begin(), Chessboard().right.begin() + 4});
+  Refusal(StereoArguments());
+  EXPECT_THAT(said_, ContainsRegex("view  4 .*  error 0\\.[0-9]+, 0\\.[0-9]+ px"));
+}
+
+TEST_F(CalibratorSession, TheErrorSoFarIsThatOfTheLensThatIsAskedFor) {
+  std::vector<cv::Mat> tall;
+  for (int i = 0; i < 4; ++i) {
+    cv::resize(Chessboard().left[static_cast<std::size_t>(i)], tall.emplace_back(), {640, 576});
+  }
+  Write("left", tall);
+  Arguments arguments = CameraArguments();
+  Refusal(arguments);
+  EXPECT_THAT(said_, ContainsRegex("  error 0\\.[01]"));
+  arguments.calibration.lens.has_fixed_aspect = true;  // A fifth off.
+  Refusal(arguments);
+  EXPECT_THAT(said_, ContainsRegex("  error 0\\.[5-9]"));
+}
+
 TEST_F(CalibratorSession, SwappedCamerasAreNotWritten) {
   Write("left", Chessboard().right);
   Write("right", Chessboard().left);
@@ -193,10 +219,12 @@ TEST_F(CalibratorSession, AFileThatIsThereIsKept) {
 }
 
 TEST_F(CalibratorSession, AFolderThatCannotBeMadeIsNamedBeforeTheWork) {
+  Write("left", Chessboard().left);
   folder_.Write("file", "no folder");
   Arguments arguments = CameraArguments();
   arguments.output = Path("file/camera.yml");
-  EXPECT_THAT(Refusal(arguments), HasSubstr("file"));
+  EXPECT_THAT(Refusal(arguments), AllOf(HasSubstr(Path("file")), HasSubstr("cannot be made")));
+  EXPECT_EQ(said_, "");
 }
 
 TEST_F(CalibratorSession, PicturesWithoutABoardGiveNothing) {
@@ -239,6 +267,27 @@ TEST_F(CalibratorSession, InARecordingTheBoardMustBeHeldStill) {
   arguments.most_views = 12;
   ASSERT_EQ(Run(arguments), 0) << said_;
   EXPECT_THAT(said_, HasSubstr("12 accepted, 12 moving"));
+}
+
+TEST_F(CalibratorSession, EveryPictureOfALogIsLookedAtHoweverTheLogIsNamed) {
+  const std::string url = "file://" + Path("walk.lcmlog");
+  {
+    transport::BusOptions options;
+    options.url = url + "?mode=w";
+    transport::Bus bus(options);
+    for (int i = 1; i <= 5; ++i) {
+      bus.Publish("CAMERA", images::Image{{i}, "camera", cv::Mat::zeros(48, 64, CV_8UC3)});
+    }
+  }
+  Arguments arguments = CameraArguments();
+  arguments.feed.left.clear();
+  arguments.feed.channel = "CAMERA";
+  arguments.feed.lcm_url = url;
+  EXPECT_THAT(Refusal(arguments), HasSubstr("out of 5 pictures"));
+  arguments.feed.lcm_url.clear();
+  setenv("LCM_DEFAULT_URL", url.c_str(), 1);
+  EXPECT_THAT(Refusal(arguments), HasSubstr("out of 5 pictures"));
+  unsetenv("LCM_DEFAULT_URL");
 }
 
 TEST_F(CalibratorSession, WhoeverStopsItGetsWhatIsThere) {

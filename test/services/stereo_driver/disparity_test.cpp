@@ -70,13 +70,13 @@ TEST_P(EveryMethod, IsWhatOpenCvFindsBitForBit) {
     const auto matcher = cv::StereoBM::create(kSearched, 15);
     matcher->setTextureThreshold(10);
     matcher->setPreFilterCap(31);
-    matcher->setUniquenessRatio(5);
+    matcher->setUniquenessRatio(10);
     matcher->setDisp12MaxDiff(1);
     matcher->setSpeckleWindowSize(100);
     matcher->setSpeckleRange(2);
     matcher->compute(left, right, wide);
   } else {
-    cv::StereoSGBM::create(0, kSearched, 7, 8 * 49, 32 * 49, 1, 31, 5, 100, 2,
+    cv::StereoSGBM::create(0, kSearched, 5, 8 * 25, 32 * 25, 1, 31, 10, 100, 2,
                            cv::StereoSGBM::MODE_SGBM_3WAY)
         ->compute(left, right, wide);
   }
@@ -105,10 +105,8 @@ TEST_P(EveryMethod, ThreadsDoNotChangeTheResult) {
 
 TEST_P(EveryMethod, FindsNothingInAGreyWall) {
   const cv::Mat grey(120, 160, CV_8UC1, cv::Scalar(128));
-  DisparityConfig config = ConfigOf(GetParam());
-  config.uniqueness_percent = 10;
   cv::Mat disparity;
-  DisparityMatcher(config, kSearched).Match(grey, grey, disparity);
+  DisparityMatcher(ConfigOf(GetParam()), kSearched).Match(grey, grey, disparity);
   EXPECT_EQ(cv::countNonZero(disparity > 0), 0);
 }
 
