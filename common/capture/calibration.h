@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "common/capture/mount.h"
 #include "common/config/config.h"
 #include "common/geometry/camera_calibration.h"
 
@@ -14,11 +15,13 @@ struct CalibrationConfig {
   /// guess.
   std::string file;
   double horizontal_fov_deg = 60.0;  ///< Guess without a file: horizontal field of view.
+  MountConfig mount;                 ///< Where the camera is; see MountOf.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
     v("file", file);
     v("horizontal_fov_deg", horizontal_fov_deg);
+    v("mount", mount);
   }
   void Check(config::Faults& faults) const;
 };

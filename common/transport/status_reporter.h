@@ -12,6 +12,15 @@ namespace deixis::transport {
 struct Health {
   bool is_degraded = false;  ///< It works, but something is wrong.
   std::string text;          ///< One line for people: what is wrong and the cure.
+
+  /// Adds a part to the text, unless it is empty.
+  void Say(const std::string& part) {
+    if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+  }
+  /// Adds "5 corrupt pictures", unless there are none.
+  void SayCount(std::int64_t count, const std::string& what) {
+    if (count > 0) Say(std::to_string(count) + " " + what);
+  }
 };
 
 /// Who a process is, in its status messages.

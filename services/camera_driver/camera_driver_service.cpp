@@ -2,10 +2,10 @@
 
 #include <opencv2/core/utils/logger.hpp>
 
-#include "common/capture/pushed_source.h"
 #include "common/capture/system_clocks.h"
 #include "common/logging/log.h"
 #include "common/messages/camera_calibration.h"
+#include "common/messages/camera_pose.h"
 #include "common/messages/image.h"
 #include "common/program/source_step.h"
 #include "common/transport/channel_name.h"
@@ -19,20 +19,17 @@ std::unique_ptr<capture::Source> OpenQuietly(const capture::SourceConfig& config
   return capture::MakeSource(config, capture::SystemClocks());
 }
 
-void Append(const std::string& part, std::string& text) {
-  if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
-}
-
 }  // namespace
 
 void CameraDriverServiceConfig::Validate() const {
   config::Faults faults;
-  const auto channel_faults =
-      transport::ChannelFaults({{"image_channel", image_channel},
-                                {"calibration_channel", calibration_channel},
-                                {"dimos.image_channel", dimos.image_channel},
-                                {"dimos.info_channel", dimos.info_channel}});
-  for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
+  auto channels = dimos.Channels();
+  channels.insert(channels.begin(), {{"image_channel", image_channel},
+                                     {"calibration_channel", calibration_channel},
+                                     {"pose_channel", pose_channel}});
+  for (const auto& [key, fault] : transport::ChannelFaults(channels)) {
+    faults.Require(false, key, fault);
+  }
   driver.Check(faults);
   faults.ThrowIfAny();
 }
@@ -42,28 +39,27 @@ CameraDriverService::CameraDriverService(const CameraDriverServiceConfig& config
     : config_(config),
       output_(output),
       clock_(capture::SystemClocks()),
-      driver_(config.driver, SourceOf(config, input)) {}
+      dimos_(config.dimos, config.driver.calibration.mount.parent_frame,
+             {[this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); },
+              [this](const geometry::CameraPose& pose) { Publish(pose); }}),
+      driver_(config.driver, SourceOf(config, input)) {
+  // A pose that nobody has given is none until the robot's transforms say it.
+  const bool is_given = !config.driver.calibration.mount.IsIdentity();
+  if (dimos_.follows_transforms() && !is_given) driver_.UseMount(std::nullopt);
+}
 
 std::unique_ptr<capture::Source> CameraDriverService::SourceOf(
     const CameraDriverServiceConfig& config, transport::Bus& input) {
   if (config.driver.source.kind != capture::SourceKind::kDimos) {
     return OpenQuietly(config.driver.source);
   }
-  auto source = std::make_unique<capture::PushedSource>(config.dimos.image_channel,
-                                                        capture::SystemClocks().monotonic);
-  input.SubscribeForeign<images::Image>(
-      config.dimos.image_channel, transport::Delivery::kLatest,
-      [pictures = source.get()](const images::Image& image) { pictures->Push(image); });
-  input.SubscribeForeign<geometry::CameraCalibration>(
-      config.dimos.info_channel, transport::Delivery::kLatest,
-      [this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); });
-  return source;
+  return dimos_.Listen(input);
 }
 
 program::StepResult CameraDriverService::Step() {
   const DriverOutput step = driver_.Next(clock_.Now());
   Publish(step);
-  LogNews();
+  log_.Note(driver_.calibration_remark(), driver_.status().trouble);
   if (step.state == capture::SourceState::kFinished) LogSummary();
   return program::ResultOf(step.state);
 }
@@ -73,6 +69,12 @@ void CameraDriverService::Publish(const DriverOutput& step) {
   if (!step.picture) return;
   output_.Publish(config_.image_channel, *step.picture);
   ++published_;
+}
+
+void CameraDriverService::Publish(const geometry::CameraPose& pose) {
+  output_.Publish(config_.pose_channel, pose);
+  const std::string& parent_frame = config_.driver.calibration.mount.parent_frame;
+  driver_.UseMount(geometry::CameraMount{parent_frame, pose.parent_from_camera});
 }
 
 void CameraDriverService::LogSummary() const {
@@ -91,25 +93,16 @@ void CameraDriverService::LogSummary() const {
                                        {"last_unreadable", status.last_corrupt}});
 }
 
-void CameraDriverService::LogNews() {
-  const std::string& remark = driver_.calibration_remark();
-  if (remark != logged_remark_) logging::Info("calibration", {{"remark", remark}});
-  logged_remark_ = remark;
-  const std::string trouble = driver_.status().trouble;
-  if (trouble.empty() == logged_trouble_.empty()) return;
-  if (trouble.empty()) logging::Info("source_recovered");
-  if (!trouble.empty()) logging::Warn("source_lost", {{"reason", trouble}});
-  logged_trouble_ = trouble;
-}
-
 transport::Health CameraDriverService::health() const {
   const capture::SourceStatus status = driver_.status();
+  const std::string pose_trouble = dimos_.trouble();
   transport::Health health;
-  health.is_degraded = !status.trouble.empty();
-  Append(status.trouble, health.text);
-  Append(driver_.calibration_remark(), health.text);
-  if (status.corrupt > 0) Append(std::to_string(status.corrupt) + " corrupt pictures", health.text);
-  if (status.skipped > 0) Append(std::to_string(status.skipped) + " skipped pictures", health.text);
+  health.is_degraded = !status.trouble.empty() || !pose_trouble.empty();
+  health.Say(status.trouble);
+  health.Say(pose_trouble);
+  health.Say(driver_.calibration_remark());
+  health.SayCount(status.corrupt, "corrupt pictures");
+  health.SayCount(status.skipped, "skipped pictures");
   return health;
 }
 

@@ -5,9 +5,8 @@
 #include "common/capture/pushed_source.h"
 #include "common/capture/system_clocks.h"
 #include "common/logging/log.h"
-#include "common/messages/camera_calibration.h"
+#include "common/messages/camera_pose.h"
 #include "common/messages/depth_image.h"
-#include "common/messages/image.h"
 #include "common/messages/rgbd_image.h"
 #include "common/messages/stereo_calibration.h"
 #include "common/messages/stereo_image.h"
@@ -27,14 +26,6 @@ std::unique_ptr<FrameSource> OpenQuietly(const FrameSourceConfig& config) {
   return MakeFrameSource(config, capture::SystemClocks());
 }
 
-void Append(const std::string& part, std::string& text) {
-  if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
-}
-
-void AppendCount(std::int64_t count, const std::string& what, std::string& text) {
-  if (count > 0) Append(std::to_string(count) + " " + what, text);
-}
-
 std::int64_t Lost(const FrameSourceStatus& status) {
   return status.pictures.corrupt + status.unmatched_left + status.unmatched_right + status.unusable;
 }
@@ -47,15 +38,16 @@ KeepPairs WhatToKeep(const StereoDriverServiceConfig& config) {
 
 void StereoDriverServiceConfig::Validate() const {
   config::Faults faults;
-  const auto channel_faults =
-      transport::ChannelFaults({{"stereo_channel", stereo_channel},
-                                {"calibration_channel", calibration_channel},
-                                {"pair_channel", pair_channel},
-                                {"kinect_channel", kinect_channel},
-                                {"dimos.image_channel", dimos.image_channel},
-                                {"dimos.depth_channel", dimos.depth_channel},
-                                {"dimos.info_channel", dimos.info_channel}});
-  for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
+  auto channels = dimos.camera.Channels();
+  channels.insert(channels.begin(), {{"stereo_channel", stereo_channel},
+                                     {"calibration_channel", calibration_channel},
+                                     {"pair_channel", pair_channel},
+                                     {"kinect_channel", kinect_channel},
+                                     {"pose_channel", pose_channel},
+                                     {"dimos.depth_channel", dimos.depth_channel}});
+  for (const auto& [key, fault] : transport::ChannelFaults(channels)) {
+    faults.Require(false, key, fault);
+  }
   faults.Require(!publishes_pairs || driver.source.kind != FrameSourceKind::kPairChannel,
                  "publishes_pairs", "must be false when the pairs come from pair_channel");
   driver.Check(faults);
@@ -67,7 +59,12 @@ StereoDriverService::StereoDriverService(const StereoDriverServiceConfig& config
     : config_(config),
       output_(output),
       clock_(capture::SystemClocks()),
+      dimos_(config.dimos.camera, mount().parent_frame,
+             {[this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); },
+              [this](const geometry::CameraPose& pose) { Publish(pose); }}),
       driver_(config.driver, SourceOf(config, input), WhatToKeep(config)) {
+  // A pose that nobody has given is none until the robot's transforms say it.
+  if (dimos_.follows_transforms() && mount().IsIdentity()) driver_.UseMount(std::nullopt);
   Listen(input);
 }
 
@@ -76,18 +73,12 @@ std::unique_ptr<FrameSource> StereoDriverService::SourceOf(const StereoDriverSer
   if (config.driver.source.kind != FrameSourceKind::kDimos) {
     return OpenQuietly(config.driver.source);
   }
-  const auto clock = capture::SystemClocks().monotonic;
-  auto colour = std::make_unique<capture::PushedSource>(config.dimos.image_channel, clock);
-  auto depth = std::make_unique<capture::PushedSource>(config.dimos.depth_channel, clock);
-  input.SubscribeForeign<images::Image>(
-      config.dimos.image_channel, Delivery::kLatest,
-      [pictures = colour.get()](const images::Image& image) { pictures->Push(image); });
+  auto colour = dimos_.Listen(input);
+  auto depth = std::make_unique<capture::PushedSource>(config.dimos.depth_channel,
+                                                       capture::SystemClocks().monotonic);
   input.SubscribeForeign<images::DepthImage>(
       config.dimos.depth_channel, Delivery::kLatest,
       [pictures = depth.get()](const images::DepthImage& image) { pictures->Push(image); });
-  input.SubscribeForeign<geometry::CameraCalibration>(
-      config.dimos.info_channel, Delivery::kLatest,
-      [this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); });
   return std::make_unique<MatchedSource>(
       std::move(colour), std::move(depth), config.driver.source.max_skew_s,
       [](const capture::Picture& picture, const capture::Picture& distances) {
@@ -111,7 +102,7 @@ void StereoDriverService::Listen(transport::Bus& input) {
 program::StepResult StereoDriverService::Step() {
   const StereoStep step = driver_.Next(clock_.Now());
   if (step.output) Publish(*step.output);
-  LogNews();
+  log_.Note(driver_.calibration_remark(), driver_.status().pictures.trouble);
   LogRegistration();
   if (step.state == capture::SourceState::kFinished) LogSummary();
   return program::ResultOf(step.state);
@@ -122,6 +113,16 @@ void StereoDriverService::Publish(const StereoOutput& output) {
   if (output.pair) output_.Publish(config_.pair_channel, *output.pair);
   output_.Publish(config_.stereo_channel, output.stereo);
   ++published_;
+}
+
+void StereoDriverService::Publish(const geometry::CameraPose& pose) {
+  output_.Publish(config_.pose_channel, pose);
+  driver_.UseMount(geometry::CameraMount{mount().parent_frame, pose.parent_from_camera});
+}
+
+// Of a dimos robot: what it has is a depth camera.
+const capture::MountConfig& StereoDriverService::mount() const {
+  return config_.driver.depth_camera.calibration.mount;
 }
 
 void StereoDriverService::LogSummary() const {
@@ -144,17 +145,6 @@ void StereoDriverService::LogSummary() const {
                                        {"unusable", status.unusable}});
 }
 
-void StereoDriverService::LogNews() {
-  const std::string& remark = driver_.calibration_remark();
-  if (remark != logged_remark_) logging::Info("calibration", {{"remark", remark}});
-  logged_remark_ = remark;
-  const std::string trouble = driver_.status().pictures.trouble;
-  if (trouble.empty() == logged_trouble_.empty()) return;
-  if (trouble.empty()) logging::Info("source_recovered");
-  if (!trouble.empty()) logging::Warn("source_lost", {{"reason", trouble}});
-  logged_trouble_ = trouble;
-}
-
 void StereoDriverService::LogRegistration() {
   const std::string& fault = driver_.registration_fault();
   const bool is_new = fault != logged_registration_fault_;
@@ -164,16 +154,19 @@ void StereoDriverService::LogRegistration() {
 
 transport::Health StereoDriverService::health() const {
   const FrameSourceStatus status = driver_.status();
+  const std::string pose_trouble = dimos_.trouble();
   transport::Health health;
-  health.is_degraded = !status.pictures.trouble.empty() || !driver_.registration_fault().empty();
-  Append(status.pictures.trouble, health.text);
-  Append(driver_.registration_fault(), health.text);
-  Append(driver_.calibration_remark(), health.text);
-  AppendCount(status.pictures.corrupt, "corrupt pictures", health.text);
-  AppendCount(status.pictures.skipped, "skipped pictures", health.text);
-  AppendCount(status.unmatched_left, "left pictures without a right one", health.text);
-  AppendCount(status.unmatched_right, "right pictures without a left one", health.text);
-  AppendCount(status.unusable, "pictures that make no pair", health.text);
+  health.is_degraded = !status.pictures.trouble.empty() || !pose_trouble.empty() ||
+                       !driver_.registration_fault().empty();
+  health.Say(status.pictures.trouble);
+  health.Say(pose_trouble);
+  health.Say(driver_.registration_fault());
+  health.Say(driver_.calibration_remark());
+  health.SayCount(status.pictures.corrupt, "corrupt pictures");
+  health.SayCount(status.pictures.skipped, "skipped pictures");
+  health.SayCount(status.unmatched_left, "left pictures without a right one");
+  health.SayCount(status.unmatched_right, "right pictures without a left one");
+  health.SayCount(status.unusable, "pictures that make no pair");
   return health;
 }
 

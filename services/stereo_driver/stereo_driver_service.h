@@ -2,7 +2,9 @@
 #include <string>
 
 #include "common/capture/playing_clock.h"
+#include "common/dimos/dimos_camera.h"
 #include "common/program/service_loop.h"
+#include "common/program/source_log.h"
 #include "common/transport/bus.h"
 #include "common/transport/status_reporter.h"
 #include "services/stereo_driver/core/stereo_driver.h"
@@ -11,16 +13,15 @@ namespace deixis::stereo_driver {
 
 /// Channels of a dimos robot, as they are on the wire: no prefix goes in front of them.
 struct DimosConfig {
-  std::string image_channel = "/color_image#sensor_msgs.Image";      ///< Or CompressedImage.
-  std::string depth_channel = "/depth_image#sensor_msgs.Image";      ///< 16UC1 or 32FC1.
-  std::string info_channel = "/camera_info#sensor_msgs.CameraInfo";  ///< The colour lens.
+  dimos::DimosCameraConfig camera;                               ///< The colour camera.
+  std::string depth_channel = "/depth_image#sensor_msgs.Image";  ///< 16UC1 or 32FC1.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
-    v("image_channel", image_channel);
+    camera.Visit(v);  // On the same level: `dimos.image_channel`.
     v("depth_channel", depth_channel);
-    v("info_channel", info_channel);
   }
+  void Validate() const { camera.Validate(); }
 };
 
 struct StereoDriverServiceConfig {
@@ -28,6 +29,7 @@ struct StereoDriverServiceConfig {
   std::string calibration_channel = "STEREO_CALIBRATION";  ///< What is known of the cameras.
   std::string pair_channel = "STEREO_PAIR";     ///< Pairs as taken: to here, or from here.
   std::string kinect_channel = "KINECT_FRAME";  ///< source.kind kinect_channel: from here.
+  std::string pose_channel = "CAMERA_POSE";     ///< source.kind dimos: the camera's pose, to here.
   DimosConfig dimos;                            ///< source.kind dimos: from here.
   bool publishes_pairs = false;                 ///< Pairs go out too, so that a log can keep them.
   StereoDriverConfig driver;
@@ -38,6 +40,7 @@ struct StereoDriverServiceConfig {
     v("calibration_channel", calibration_channel);
     v("pair_channel", pair_channel);
     v("kinect_channel", kinect_channel);
+    v("pose_channel", pose_channel);
     v("dimos", dimos);
     v("publishes_pairs", publishes_pairs);
     driver.Visit(v);  // On the same level: `source.kind`, not `driver.source.kind`.
@@ -62,18 +65,19 @@ class StereoDriverService {
                                         transport::Bus& input);
   void Listen(transport::Bus& input);
   void Publish(const StereoOutput& output);
-  void LogNews();
+  void Publish(const geometry::CameraPose& pose);
+  const capture::MountConfig& mount() const;
   void LogRegistration();
   void LogSummary() const;
 
   StereoDriverServiceConfig config_;
   transport::Bus& output_;
   capture::PlayingClock clock_;
+  dimos::DimosCamera dimos_;
   StereoDriver driver_;
   std::int64_t published_ = 0;  ///< Frames.
-  std::string logged_remark_;
+  program::SourceLog log_;
   std::string logged_registration_fault_;
-  std::string logged_trouble_;
 };
 
 }  // namespace deixis::stereo_driver

@@ -36,7 +36,7 @@ FORBIDDEN_IN_CORES = [
      "a generated message type"),
     (re.compile(r"yaml-cpp/"), "yaml-cpp: common/config reads files"),
     (re.compile(r"spdlog/"), "a log: return what happened, the service decides what to say"),
-    (re.compile(r"common/(transport|messages|logging|program)/"), "a part of common/ about the bus"),
+    (re.compile(r"common/(transport|messages|logging|dimos|program)/"), "a part of common/ about the bus"),
 ]
 _INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 

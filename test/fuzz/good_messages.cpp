@@ -5,6 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/messages/camera_calibration.h"
+#include "common/messages/camera_pose.h"
+#include "common/messages/frame_transforms.h"
 #include "common/messages/gesture.h"
 #include "common/messages/gesture_state.h"
 #include "common/messages/hands.h"
@@ -161,6 +163,11 @@ geometry::StereoCalibration Rig(Timestamp time) {
   return rig;
 }
 
+geometry::FrameTransforms Head(Timestamp time) {
+  return {{time, "base_link", "neck", {Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}}},
+          {time, "neck", "camera", {Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, 0.0, 0.0}}}};
+}
+
 messages::ServiceStatus Status(Timestamp time) {
   messages::ServiceStatus status;
   status.time = time;
@@ -190,6 +197,8 @@ std::vector<GoodMessage> GoodMessages(std::int64_t utime_us) {
       Of("stereo", "STEREO", images::StereoImage{Encoded(time), Depth()}),
       Of("stereo_pair", "STEREO_PAIR", images::EncodedStereoPair{Encoded(time), Encoded(time)}),
       Of("stereo_calibration", "STEREO_CALIBRATION", Rig(time)),
+      Of("camera_pose", "CAMERA_POSE", geometry::CameraPose{time, Head(time)[1].parent_from_child}),
+      Of("transforms", "/tf#tf2_msgs.TFMessage", Head(time)),
       Of("kinect", "KINECT_FRAME", Rgbd(time)),
       Of("hands", "HAND_TRACKS", OneHand(time)),
       Of("gesture_state", "GESTURE_STATE", State(time)),

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "common/config/config.h"
+#include "services/camera_driver/camera_driver_service.h"
 #include "services/gesture_recogniser/gesture_recogniser_service.h"
 #include "services/hand_tracker/hand_tracker_service.h"
 #include "services/object_detector/object_detector_service.h"
@@ -48,15 +49,24 @@ HostedServices::HostedServices() : bus_(test::Memory()) {
       "viewer.yaml", {"save_folder=" + folder_.path().string(), "latest_period_s=0.1"});
   Add<stereo_driver::StereoDriverService, stereo_driver::StereoDriverServiceConfig>(
       "stereo_driver.yaml", {"source.kind=kinect_channel"});
-
-  std::set<std::string> heard;
-  for (const auto& channel : bus_.statistics()) heard.insert(channel.channel);
-  channels_.assign(heard.begin(), heard.end());
+  NoteNewChannels();
+  Add<camera_driver::CameraDriverService, camera_driver::CameraDriverServiceConfig>(
+      "camera_driver.yaml", {"source.kind=dimos", "calibration.mount.parent_frame=base_link",
+                             "dimos.camera_frame=camera"});
+  NoteNewChannels();
   bus_.Subscribe<ServiceStatus>(transport::kStatusChannel, transport::Delivery::kEvery,
                                 [this](const ServiceStatus&) { ++statuses_; });
 }
 
 HostedServices::~HostedServices() = default;
+
+// Inputs of the corpus name channels by their place: new ones go to the end.
+void HostedServices::NoteNewChannels() {
+  std::set<std::string> heard;
+  for (const auto& channel : bus_.statistics()) heard.insert(channel.channel);
+  for (const std::string& known : channels_) heard.erase(known);
+  channels_.insert(channels_.end(), heard.begin(), heard.end());
+}
 
 void HostedServices::Send(const std::string& channel, messages::Bytes bytes) {
   bus_.PublishRaw(channel, bytes, {0});

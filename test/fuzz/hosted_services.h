@@ -30,6 +30,7 @@ class HostedServices {
   class Host;
   template <typename Service, typename Config>
   void Add(const std::string& file, const std::vector<std::string>& overrides = {});
+  void NoteNewChannels();
   void HandleAll();
   std::map<std::string, std::int64_t> Published() const;
 

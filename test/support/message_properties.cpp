@@ -7,6 +7,7 @@
 #include "common/messages/camera_calibration.h"
 #include "common/messages/camera_pose.h"
 #include "common/messages/depth_image.h"
+#include "common/messages/frame_transforms.h"
 #include "common/messages/gesture.h"
 #include "common/messages/gesture_state.h"
 #include "common/messages/hands.h"
@@ -63,6 +64,7 @@ void RequireSoundCodecs(Bytes bytes) {
   RequireSoundCodec<geometry::CameraCalibration, camera_calibration_t, sensor_msgs::CameraInfo>(
       bytes);
   RequireSoundCodec<geometry::CameraPose, bot_core::rigid_transform_t>(bytes);
+  RequireSoundCodec<geometry::FrameTransforms, tf2_msgs::TFMessage>(bytes);
   RequireSoundCodec<images::DepthImage, sensor_msgs::Image>(bytes);
   RequireSoundCodec<scene::Gesture, gesture_t>(bytes);
   RequireSoundCodec<scene::GestureState, gesture_state_t>(bytes);

@@ -1,16 +1,10 @@
 #include "services/camera_driver/core/camera_driver.h"
 
-#include <cmath>
 #include <utility>
 
 #include "common/config/plain_text.h"
 
 namespace deixis::camera_driver {
-namespace {
-
-constexpr double kCalibrationPeriod_s = 1.0;
-
-}  // namespace
 
 void CameraDriverConfig::Check(config::Faults& faults) const {
   faults.Require(config::IsPlainText(camera), "camera", config::kPlainTextRule);
@@ -28,7 +22,8 @@ CameraDriver::CameraDriver(const CameraDriverConfig& config,
       source_(std::move(source)),
       calibration_(config.calibration),
       pacer_(config.pace, config.start_time_utime),
-      is_live_(source_->status().is_live) {}
+      is_live_(source_->status().is_live),
+      mount_(capture::MountOf(config.calibration.mount)) {}
 
 DriverOutput CameraDriver::Next(Timestamp now) {
   DriverOutput output;
@@ -59,22 +54,26 @@ void CameraDriver::UseLens(const geometry::CameraCalibration& lens) {
   if (calibration_.UseOwn(lens)) is_own_lens_new_ = true;
 }
 
+void CameraDriver::UseMount(const std::optional<geometry::CameraMount>& mount) {
+  if (mount_.has_value() != mount.has_value()) schedule_.BeginAnew();
+  mount_ = mount;
+}
+
 std::optional<geometry::CameraCalibration> CameraDriver::CalibrationIfDue(
     const images::EncodedImage& picture) {
   const bool has_same_size = lens_.calibration.width_px == picture.width_px &&
                              lens_.calibration.height_px == picture.height_px;
-  // The absolute value, so that a clock that was set back does not silence the calibration.
-  const bool is_recent =
-      calibration_sent_ &&
-      std::abs(SecondsBetween(*calibration_sent_, picture.time)) < kCalibrationPeriod_s;
-  if (has_same_size && is_recent && !is_own_lens_new_) return std::nullopt;
-  if (!has_same_size || is_own_lens_new_)
+  if (!has_same_size || is_own_lens_new_) {
     lens_ = calibration_.For({picture.width_px, picture.height_px});
+    schedule_.BeginAnew();
+  }
   is_own_lens_new_ = false;
-  lens_.calibration.camera = config_.camera;
-  lens_.calibration.time = picture.time;
-  calibration_sent_ = picture.time;
-  return lens_.calibration;
+  if (!schedule_.IsDue(picture.time)) return std::nullopt;
+  schedule_.NoteSent(picture.time);
+  geometry::CameraCalibration calibration = lens_.calibration;
+  calibration.camera = config_.camera;
+  calibration.time = picture.time;
+  return mount_ ? Mounted(std::move(calibration), *mount_) : calibration;
 }
 
 }  // namespace deixis::camera_driver

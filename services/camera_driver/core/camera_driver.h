@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/capture/calibration.h"
+#include "common/capture/calibration_schedule.h"
 #include "common/capture/pacer.h"
 #include "common/capture/picture_encoder.h"
 #include "common/capture/sources.h"
@@ -54,6 +55,10 @@ class CameraDriver {
   /// pictures have another aspect it is not theirs, and the remark says so.
   void UseLens(const geometry::CameraCalibration& lens);
 
+  /// From now on the camera is mounted like this; nothing = it is not known. Before the first call
+  /// it is as in the configuration.
+  void UseMount(const std::optional<geometry::CameraMount>& mount);
+
   capture::SourceStatus status() const { return source_->status(); }
   /// What has to be known about the calibration ("guessed ..."); empty before the first picture and
   /// when it is as in its file.
@@ -72,7 +77,8 @@ class CameraDriver {
   std::optional<capture::Picture> waiting_;  ///< Recorded picture whose time has not come.
   capture::CalibrationAnswer lens_;
   bool is_own_lens_new_ = false;
-  std::optional<Timestamp> calibration_sent_;
+  std::optional<geometry::CameraMount> mount_;
+  capture::CalibrationSchedule schedule_;
 };
 
 }  // namespace deixis::camera_driver

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/capture/calibration.h"
+#include "common/capture/mount.h"
 #include "common/config/config.h"
 #include "common/geometry/stereo_calibration.h"
 
@@ -35,6 +36,7 @@ struct RigCalibrationConfig {
   Rectification rectification = Rectification::kComputed;
   double alpha = 0.0;  ///< `computed`: 0 = only pixels that both cameras' pictures have, 1 = all.
   double disparity_sigma_px = 0.2;  ///< Error of a disparity at full width, as it is published.
+  capture::MountConfig mount;       ///< Where the raw left camera is; see capture::MountOf.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -46,6 +48,7 @@ struct RigCalibrationConfig {
     v("rectification", rectification);
     v("alpha", alpha);
     v("disparity_sigma_px", disparity_sigma_px);
+    v("mount", mount);
   }
   void Validate() const;  ///< Throws FaultsFound.
 };

@@ -1,6 +1,5 @@
 #include "services/stereo_driver/core/stereo_driver.h"
 
-#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
@@ -12,7 +11,6 @@ namespace {
 
 using capture::SourceState;
 
-constexpr double kCalibrationPeriod_s = 1.0;
 constexpr double kLargestDepthSigma_m = 1.0;
 
 bool MeasuresDepth(FrameSourceKind kind) {
@@ -46,8 +44,10 @@ void SetTime(Timestamp time, Frame& frame) {
   }
 }
 
-/// A depth camera, said as a pair of cameras: both are the colour camera.
-geometry::StereoCalibration AsStereo(const geometry::CameraCalibration& lens, double sigma_m) {
+/// A depth camera, said as a pair of cameras: both are the colour camera. Its pictures are not
+/// turned, whatever rectification the camera says of itself.
+geometry::StereoCalibration AsStereo(geometry::CameraCalibration lens, double sigma_m) {
+  lens.rectification.setIdentity();
   geometry::StereoCalibration calibration;
   calibration.left = calibration.right = calibration.rectified = lens;
   calibration.rectified.distortion_model = geometry::DistortionModel::kNone;
@@ -56,12 +56,14 @@ geometry::StereoCalibration AsStereo(const geometry::CameraCalibration& lens, do
   return calibration;
 }
 
-void Stamp(Timestamp time, const std::string& camera, geometry::StereoCalibration& calibration) {
+geometry::StereoCalibration Stamped(geometry::StereoCalibration calibration, Timestamp time,
+                                    const std::string& camera) {
   calibration.time = calibration.left.time = calibration.right.time = calibration.rectified.time =
       time;
   calibration.camera = calibration.rectified.camera = camera;
   calibration.left.camera = camera + ".left";
   calibration.right.camera = camera + ".right";
+  return calibration;
 }
 
 capture::Calibration ColourLens(const capture::CalibrationConfig& config,
@@ -113,8 +115,10 @@ StereoDriver::StereoDriver(const StereoDriverConfig& config, std::unique_ptr<Fra
       registration_.emplace(depth_camera.registration);
     }
     lens_.emplace(ColourLens(depth_camera.calibration, registration_));
+    mount_ = capture::MountOf(depth_camera.calibration.mount);
   } else {
     rig_.emplace(config.calibration);
+    mount_ = capture::MountOf(config.calibration.mount);
   }
 }
 
@@ -170,11 +174,16 @@ void StereoDriver::PrepareRig(cv::Size size) {
   matcher_.emplace(config_.matcher, calibration);
   calibration_ = std::move(calibration);
   remark_ = std::move(remark);
-  calibration_sent_.reset();
+  schedule_.BeginAnew();
 }
 
 void StereoDriver::UseLens(const geometry::CameraCalibration& lens) {
   if (lens_ && lens_->UseOwn(lens)) depth_camera_.reset();
+}
+
+void StereoDriver::UseMount(const std::optional<geometry::CameraMount>& mount) {
+  if (mount_.has_value() != mount.has_value()) schedule_.BeginAnew();
+  mount_ = mount;
 }
 
 void StereoDriver::PrepareDepthCamera(cv::Size size, cv::Size depth_size) {
@@ -186,7 +195,7 @@ void StereoDriver::PrepareDepthCamera(cv::Size size, cv::Size depth_size) {
   calibration_ = AsStereo(lens, config_.depth_camera.depth_sigma_m_at_1m);
   depth_camera_.emplace(calibration_, config_.matcher.depth_size, ViewOfDepth(depth_size));
   depth_camera_size_ = depth_size;
-  calibration_sent_.reset();
+  schedule_.BeginAnew();
 }
 
 std::optional<DepthView> StereoDriver::ViewOfDepth(cv::Size depth_size) {
@@ -205,13 +214,10 @@ StereoOutput StereoDriver::Packed(const RectifiedDepth& depth, Timestamp time) {
 }
 
 std::optional<geometry::StereoCalibration> StereoDriver::CalibrationIfDue(Timestamp time) {
-  // The absolute value, so that a clock that was set back does not silence the calibration.
-  const bool is_recent = calibration_sent_ &&
-                         std::abs(SecondsBetween(*calibration_sent_, time)) < kCalibrationPeriod_s;
-  if (is_recent) return std::nullopt;
-  Stamp(time, config_.camera, calibration_);
-  calibration_sent_ = time;
-  return calibration_;
+  if (!schedule_.IsDue(time)) return std::nullopt;
+  schedule_.NoteSent(time);
+  geometry::StereoCalibration calibration = Stamped(calibration_, time, config_.camera);
+  return mount_ ? Mounted(std::move(calibration), *mount_) : calibration;
 }
 
 FrameSourceStatus StereoDriver::status() const {

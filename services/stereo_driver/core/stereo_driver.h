@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/capture/calibration.h"
+#include "common/capture/calibration_schedule.h"
 #include "common/capture/pacer.h"
 #include "common/images/stereo_image.h"
 #include "services/stereo_driver/core/depth_camera.h"
@@ -97,6 +98,10 @@ class StereoDriver {
   /// The colour camera's lens as somebody else says it; a calibration file goes before it.
   void UseLens(const geometry::CameraCalibration& lens);
 
+  /// From now on the raw left camera, or the colour camera, is mounted like this; nothing = it is
+  /// not known. Before the first call it is as in the configuration.
+  void UseMount(const std::optional<geometry::CameraMount>& mount);
+
   FrameSourceStatus status() const;
   /// What has to be known about the calibration; empty before the first frame and when it is as in
   /// its files.
@@ -131,7 +136,8 @@ class StereoDriver {
   std::optional<StereoMatcher> matcher_;
   std::optional<DepthCamera> depth_camera_;
   cv::Size depth_camera_size_;  ///< Of its depth.
-  std::optional<Timestamp> calibration_sent_;
+  std::optional<geometry::CameraMount> mount_;
+  capture::CalibrationSchedule schedule_;
 };
 
 }  // namespace deixis::stereo_driver

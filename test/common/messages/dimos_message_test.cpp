@@ -9,9 +9,11 @@
 #include <sensor_msgs/CameraInfo.hpp>
 #include <sensor_msgs/CompressedImage.hpp>
 #include <sensor_msgs/Image.hpp>
+#include <tf2_msgs/TFMessage.hpp>
 
 #include "common/messages/camera_calibration.h"
 #include "common/messages/depth_image.h"
+#include "common/messages/frame_transforms.h"
 #include "common/messages/image.h"
 
 namespace deixis::messages {
@@ -19,9 +21,11 @@ namespace {
 
 using geometry::CameraCalibration;
 using geometry::DistortionModel;
+using geometry::FrameTransforms;
 using sensor_msgs::CameraInfo;
 using sensor_msgs::CompressedImage;
 using testing::ElementsAre;
+using tf2_msgs::TFMessage;
 
 template <typename Message>
 std::vector<std::uint8_t> Encoded(const Message& message) {
@@ -319,6 +323,85 @@ TEST(HostileDimosLens, PartOfThePictureIsRejectedUnlessItIsTheWhole) {
   EXPECT_EQ(reason([](auto& m) { m.binning_y = 2; }), "unsupported_binning");
   EXPECT_EQ(reason([](auto& m) { m.roi.x_offset = 8; }), "unsupported_binning");
   EXPECT_EQ(reason([](auto& m) { m.roi.height = 100; }), "unsupported_binning");
+}
+
+// A quarter about z, 1 2 3 m away.
+TFMessage Transforms() {
+  geometry_msgs::TransformStamped neck{};
+  neck.header = Header();
+  neck.header.frame_id = "base_link";
+  neck.child_frame_id = "neck";
+  neck.transform.translation.x = 1.0;
+  neck.transform.translation.y = 2.0;
+  neck.transform.translation.z = 3.0;
+  neck.transform.rotation.z = neck.transform.rotation.w = std::sqrt(0.5);
+  geometry_msgs::TransformStamped camera = neck;
+  camera.header.frame_id = "neck";
+  camera.child_frame_id = "camera_optical";
+  TFMessage message{};
+  message.transforms = {neck, camera};
+  message.transforms_length = 2;
+  return message;
+}
+
+TEST(DimosTransforms, AreReadWithTheirFramesAndTimes) {
+  const auto decoded = Decode<FrameTransforms>(Transforms());
+  EXPECT_EQ(decoded.sequence, -1);
+  ASSERT_EQ(decoded.value.size(), 2U);
+  const geometry::FrameTransform& neck = decoded.value[0];
+  EXPECT_EQ(neck.time.microseconds, 1'700'000'000'123'456);
+  EXPECT_EQ(neck.parent, "base_link");
+  EXPECT_EQ(neck.child, "neck");
+  EXPECT_TRUE(
+      (neck.parent_from_child * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(1, 3, 3)));
+}
+
+TEST(DimosTransforms, GoThereAndBack) {
+  const auto sent = Decode<FrameTransforms>(Transforms()).value;
+  const auto bytes = Codec<FrameTransforms>::Encode(sent, 7);
+  const auto read = Codec<FrameTransforms>::Decode({bytes.data(), bytes.size()}).value;
+  ASSERT_EQ(read.size(), sent.size());
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    EXPECT_EQ(read[i].time, sent[i].time);
+    EXPECT_EQ(read[i].parent, sent[i].parent);
+    EXPECT_EQ(read[i].child, sent[i].child);
+    EXPECT_TRUE(read[i].parent_from_child.rotation.isApprox(sent[i].parent_from_child.rotation));
+    EXPECT_EQ(read[i].parent_from_child.translation_m, sent[i].parent_from_child.translation_m);
+  }
+}
+
+TEST(HostileDimosTransforms, WhatNoTransformHasIsRejected) {
+  const auto reason = [](void (*change)(TFMessage&)) {
+    TFMessage message = Transforms();
+    change(message);
+    return ReasonFor<FrameTransforms>(message);
+  };
+  EXPECT_EQ(reason([](auto&) {}), "accepted");
+  EXPECT_EQ(reason([](auto& m) { m.transforms[1].child_frame_id = ""; }), "out_of_range");
+  EXPECT_EQ(reason([](auto& m) { m.transforms[1].header.frame_id = ""; }), "out_of_range");
+  EXPECT_EQ(reason([](auto& m) { m.transforms[0].child_frame_id = "base_link"; }), "out_of_range");
+  EXPECT_EQ(reason([](auto& m) { m.transforms[0].child_frame_id.assign(2000, 'a'); }),
+            "text_too_long");
+  EXPECT_EQ(reason([](auto& m) { m.transforms[0].transform.rotation.w = 0.0; }), "not_a_rotation");
+  EXPECT_EQ(reason([](auto& m) { m.transforms[0].transform.rotation.x = std::nan(""); }),
+            "not_finite");
+  EXPECT_EQ(reason([](auto& m) { m.transforms[0].transform.translation.z = 1e300; }),
+            "out_of_range");
+  EXPECT_EQ(reason([](auto& m) { m.transforms[0].transform.translation.x = std::nan(""); }),
+            "not_finite");
+  EXPECT_EQ(reason([](auto& m) { m.transforms[0].header.stamp.sec = -1; }), "out_of_range");
+  EXPECT_EQ(reason([](auto& m) {
+              m.transforms.resize(1025, m.transforms[0]);
+              m.transforms_length = 1025;
+            }),
+            "too_many");
+}
+
+TEST(HostileDimosTransforms, EveryTruncationIsRejected) {
+  const auto whole = Encoded(Transforms());
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_THROW(Codec<FrameTransforms>::Decode({whole.data(), size}), Rejected) << size;
+  }
 }
 
 }  // namespace

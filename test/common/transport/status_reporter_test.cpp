@@ -12,6 +12,16 @@ namespace {
 using messages::ServiceStatus;
 using scene::Hands;
 
+TEST(Health, TextHoldsWhatThereIsToSay) {
+  Health health;
+  health.Say("");
+  health.SayCount(0, "corrupt pictures");
+  EXPECT_EQ(health.text, "");
+  health.Say("guessed");
+  health.SayCount(5, "corrupt pictures");
+  EXPECT_EQ(health.text, "guessed; 5 corrupt pictures");
+}
+
 class StatusReporterTest : public testing::Test {
  protected:
   StatusReporterTest() {

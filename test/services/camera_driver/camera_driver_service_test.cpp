@@ -9,6 +9,8 @@
 #include <sensor_msgs/Image.hpp>
 
 #include "common/messages/camera_calibration.h"
+#include "common/messages/camera_pose.h"
+#include "common/messages/frame_transforms.h"
 #include "common/messages/image.h"
 #include "test/support/memory_bus.h"
 #include "test/support/temporary_folder.h"
@@ -230,6 +232,125 @@ TEST_F(DimosCamera, BadPicturesAreCountedAndTheNextIsTaken) {
   for (const auto& channel : bus_.statistics()) {
     if (channel.channel != config_.dimos.image_channel) continue;
     EXPECT_THAT(channel.drops, ElementsAre(testing::Pair("bad_pixel_format", 1)));
+    return;
+  }
+  FAIL() << "no statistics of the robot's channel";
+}
+
+geometry::FrameTransform Transform(const std::string& parent, const std::string& child,
+                                   const Eigen::Vector3d& by_m, std::int64_t time_us) {
+  return {{time_us}, parent, child, {Eigen::Quaterniond::Identity(), by_m}};
+}
+
+/// The robot's base holds a neck, that holds the camera whose pictures name "camera_optical".
+class DimosTransforms : public DimosCamera {
+ protected:
+  DimosTransforms() {
+    config_.driver.calibration.mount.parent_frame = "base_link";
+    bus_.Subscribe<geometry::CameraPose>("CAMERA_POSE", transport::Delivery::kEvery,
+                                         [this](const auto& pose) { poses_.push_back(pose); });
+  }
+  void SendPicture(CameraDriverService& service, std::int32_t sec) {
+    Send(bus_, config_.dimos.image_channel, RobotPicture(sec));
+    Exchange(service);
+  }
+  void SendTransforms(CameraDriverService& service, const geometry::FrameTransforms& transforms) {
+    const auto bytes = messages::Codec<geometry::FrameTransforms>::Encode(transforms, 0);
+    bus_.PublishRaw("/tf#tf2_msgs.TFMessage", {bytes.data(), bytes.size()}, {0});
+    Exchange(service);
+  }
+  const geometry::FrameTransforms chain_{
+      Transform("base_link", "neck", {0, 0, 1}, 7'000'000),
+      Transform("neck", "camera_optical", {0.2, 0, 0}, 8'000'000)};
+  std::vector<geometry::CameraPose> poses_;
+};
+
+TEST_F(DimosTransforms, BecomePosesOfTheCameraThatThePicturesName) {
+  CameraDriverService service(config_, bus_, bus_);
+  SendPicture(service, 1);
+  SendTransforms(service, chain_);
+  ASSERT_EQ(poses_.size(), 1U);
+  EXPECT_EQ(poses_[0].time.microseconds, 8'000'000);
+  EXPECT_TRUE(poses_[0].parent_from_camera.translation_m.isApprox(Eigen::Vector3d(0.2, 0, 1)));
+  SendTransforms(service, {Transform("base_link", "wheel", {0, 1, 0}, 9'000'000)});
+  EXPECT_EQ(poses_.size(), 1U);
+}
+
+TEST_F(DimosTransforms, TheLensNamesTheCameraUntilAPictureDoes) {
+  CameraDriverService service(config_, bus_, bus_);
+  Send(bus_, config_.dimos.info_channel, RobotLens(1));
+  Exchange(service);
+  SendTransforms(service, chain_);
+  EXPECT_EQ(poses_.size(), 1U);
+}
+
+TEST_F(DimosTransforms, TheConfigurationNamesTheCameraBeforeAll) {
+  config_.dimos.camera_frame = "neck";
+  CameraDriverService service(config_, bus_, bus_);
+  SendPicture(service, 1);
+  SendTransforms(service, chain_);
+  ASSERT_EQ(poses_.size(), 1U);
+  EXPECT_EQ(poses_[0].time.microseconds, 7'000'000);
+}
+
+TEST_F(DimosTransforms, TheCalibrationSaysNoMountUntilTheChainIsComplete) {
+  CameraDriverService service(config_, bus_, bus_);
+  SendPicture(service, 1);
+  EXPECT_FALSE(lenses_.at(0).parent_from_camera);
+  SendTransforms(service, chain_);
+  SendPicture(service, 1);
+  ASSERT_EQ(lenses_.size(), 2U);
+  EXPECT_EQ(lenses_[1].parent_frame, "base_link");
+  EXPECT_TRUE(lenses_[1].parent_from_camera->translation_m.isApprox(Eigen::Vector3d(0.2, 0, 1)));
+}
+
+TEST_F(DimosTransforms, AMountThatIsGivenHoldsUntilTheChainIsComplete) {
+  config_.driver.calibration.mount.translation_m = {0, 0, 5};
+  CameraDriverService service(config_, bus_, bus_);
+  SendPicture(service, 1);
+  EXPECT_EQ(lenses_.at(0).parent_from_camera->translation_m, Eigen::Vector3d(0, 0, 5));
+  SendTransforms(service, chain_);
+  SendPicture(service, 3);
+  EXPECT_TRUE(lenses_.at(1).parent_from_camera->translation_m.isApprox(Eigen::Vector3d(0.2, 0, 1)));
+}
+
+TEST_F(DimosTransforms, TheStatusSaysWhichLinkLacks) {
+  CameraDriverService service(config_, bus_, bus_);
+  EXPECT_THAT(service.health().text, HasSubstr("camera's frame is not known"));
+  SendPicture(service, 1);
+  SendTransforms(service, {chain_[0]});
+  EXPECT_TRUE(service.health().is_degraded);
+  EXPECT_THAT(service.health().text, HasSubstr("no transform names 'camera_optical'"));
+  SendTransforms(service, {chain_[1]});
+  EXPECT_FALSE(service.health().is_degraded);
+  EXPECT_THAT(service.health().text, testing::Not(HasSubstr("transform")));
+}
+
+TEST_F(DimosTransforms, AreNotFollowedWithoutAParentOrAChannel) {
+  for (const bool has_channel : {true, false}) {
+    config_.driver.calibration.mount.parent_frame = has_channel ? "" : "base_link";
+    config_.dimos.tf_channel = has_channel ? "/tf#tf2_msgs.TFMessage" : "";
+    config_.Validate();
+    CameraDriverService service(config_, bus_, bus_);
+    SendPicture(service, 1);
+    SendTransforms(service, chain_);
+    EXPECT_FALSE(service.health().is_degraded);
+  }
+  EXPECT_TRUE(poses_.empty());
+}
+
+TEST_F(DimosTransforms, HostileOnesAreCountedAndTheNextAreTaken) {
+  CameraDriverService service(config_, bus_, bus_);
+  SendPicture(service, 1);
+  geometry::FrameTransforms bad = chain_;
+  bad[0].parent_from_child.rotation.coeffs() *= 3.0;
+  SendTransforms(service, bad);
+  EXPECT_TRUE(poses_.empty());
+  SendTransforms(service, chain_);
+  EXPECT_EQ(poses_.size(), 1U);
+  for (const auto& channel : bus_.statistics()) {
+    if (channel.channel != config_.dimos.tf_channel) continue;
+    EXPECT_THAT(channel.drops, ElementsAre(testing::Pair("not_a_rotation", 1)));
     return;
   }
   FAIL() << "no statistics of the robot's channel";

@@ -106,6 +106,46 @@ TEST(CameraDriver, LeavesALensOfAnotherAspectAndSaysSo) {
   EXPECT_THAT(driver.calibration_remark(), HasSubstr("64x64, another aspect"));
 }
 
+capture::MountConfig OnTheHead() { return {"base_link", {0.1, 0.0, 1.2}, {0.5, -0.5, 0.5, -0.5}}; }
+
+CameraDriver MountedDriver(const capture::MountConfig& mount) {
+  CameraDriverConfig config;
+  config.pace = Pace::kAsFastAsPossible;
+  config.calibration.mount = mount;
+  return CameraDriver(config, std::make_unique<ScriptedSource>(TwentyPictures(), SourceStatus{}));
+}
+
+TEST(CameraDriver, SaysWhereItIsMounted) {
+  const auto calibration = MountedDriver(OnTheHead()).Next({0}).calibration;
+  ASSERT_TRUE(calibration && calibration->parent_from_camera);
+  EXPECT_EQ(calibration->parent_frame, "base_link");
+  const Eigen::Vector3d ahead = *calibration->parent_from_camera * Eigen::Vector3d(0, 0, 2);
+  EXPECT_TRUE(ahead.isApprox(Eigen::Vector3d(2.1, 0.0, 1.2), 1e-12)) << ahead.transpose();
+}
+
+TEST(CameraDriver, SaysNoMountThatIsNotKnown) {
+  const auto calibration = MountedDriver({}).Next({0}).calibration;
+  EXPECT_FALSE(calibration->parent_from_camera);
+  EXPECT_EQ(calibration->parent_frame, "");
+}
+
+TEST(CameraDriver, MountsTheLensThatTheCameraSays) {
+  CameraDriver driver = MountedDriver(OnTheHead());
+  driver.UseLens(OwnLens(64, 48));
+  const auto calibration = driver.Next({0}).calibration;
+  EXPECT_TRUE(calibration->is_calibrated);
+  EXPECT_EQ(calibration->parent_frame, "base_link");
+}
+
+TEST(CameraDriver, SaysAMountAtOnceThatWasNotKnownAndAfterThatInTurn) {
+  CameraDriver driver = MountedDriver({});
+  driver.Next({0});
+  driver.UseMount(geometry::CameraMount{"base_link", {}});
+  EXPECT_EQ(driver.Next({0}).calibration->parent_frame, "base_link");
+  driver.UseMount(geometry::CameraMount{"base_link", {}});
+  EXPECT_FALSE(driver.Next({0}).calibration);
+}
+
 TEST(CameraDriver, FinishesWithItsSource) {
   CameraDriver driver = Driver(Pace::kAsFastAsPossible, {});
   EXPECT_EQ(driver.Next({0}).state, SourceState::kFinished);

@@ -5,7 +5,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/messages/camera_calibration.h"
+#include "common/messages/camera_pose.h"
 #include "common/messages/depth_image.h"
+#include "common/messages/frame_transforms.h"
 #include "common/messages/image.h"
 #include "common/messages/rgbd_image.h"
 #include "common/messages/stereo_calibration.h"
@@ -199,6 +201,29 @@ TEST_F(StereoDriverServiceTest, TakesColourDepthAndLensOfADimosRobot) {
   ASSERT_TRUE(calibration);
   EXPECT_EQ(calibration->rectified.focal_px, lens.focal_px);
   EXPECT_TRUE(calibration->rectified.is_calibrated);
+}
+
+TEST_F(StereoDriverServiceTest, FollowsTheColourCameraOfADimosRobot) {
+  config_.driver.source.kind = FrameSourceKind::kDimos;
+  config_.driver.depth_camera.calibration.mount.parent_frame = "base_link";
+  StereoDriverService service(config_, bus_, bus_);
+  std::vector<geometry::CameraPose> poses;
+  bus_.Subscribe<geometry::CameraPose>("CAMERA_POSE", transport::Delivery::kEvery,
+                                       [&poses](const auto& pose) { poses.push_back(pose); });
+  bus_.Publish("/depth_image#sensor_msgs.Image",
+               images::DepthImage{{5'000}, "depth", cv::Mat(240, 320, CV_16UC1)});
+  bus_.Publish("/color_image#sensor_msgs.Image", images::Image{{5'000}, "colour", pair_.left.bgr});
+  test::HandleAll(bus_);
+  const geometry::RigidTransform base_from_colour{Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5),
+                                                  {0.0, 0.0, 1.0}};
+  bus_.Publish("/tf#tf2_msgs.TFMessage",
+               geometry::FrameTransforms{{{6'000}, "base_link", "depth", {}},
+                                         {{4'000}, "base_link", "colour", base_from_colour}});
+  test::HandleAll(bus_);
+  ASSERT_EQ(poses.size(), 1u);
+  EXPECT_EQ(poses[0].time.microseconds, 4'000);
+  EXPECT_EQ(poses[0].parent_from_camera.translation_m, Eigen::Vector3d(0.0, 0.0, 1.0));
+  EXPECT_THAT(service.health().text, testing::Not(HasSubstr("transform")));
 }
 
 TEST_F(StereoDriverServiceTest, PublishesCalibrationThenPairThenDepth) {

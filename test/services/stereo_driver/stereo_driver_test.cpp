@@ -224,6 +224,43 @@ TEST_F(StereoDriverTest, SaysTheCalibrationAnewWhenTheSizeChanges) {
   EXPECT_EQ(driver.Convert(Rgbd({128, 96})).calibration->rectified.width_px, 128);
 }
 
+TEST_F(StereoDriverTest, SaysWhereEachCameraIsMounted) {
+  config_.calibration.mount = {"base_link", {0.1, 0.0, 1.2}, {0.5, -0.5, 0.5, -0.5}};
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  const auto rig = driver.Convert(pair_).calibration;
+  ASSERT_TRUE(rig && rig->left.parent_from_camera && rig->right.parent_from_camera &&
+              rig->rectified.parent_from_camera);
+  const Eigen::Vector3d in_left(0.2, -0.1, 1.5);
+  const Eigen::Vector3d in_base(0.1 + 1.5, -0.2, 1.2 + 0.1);
+  for (const auto& [camera, point] :
+       {std::pair{rig->left, in_left}, std::pair{rig->right, rig->right_from_left * in_left},
+        std::pair{rig->rectified, Eigen::Vector3d(rig->left.rectification * in_left)}}) {
+    EXPECT_EQ(camera.parent_frame, "base_link");
+    EXPECT_NEAR((*camera.parent_from_camera * point - in_base).norm(), 0.0, 1e-9) << camera.camera;
+  }
+}
+
+TEST_F(StereoDriverTest, ADepthCamerasThreeAreOne) {
+  config_.source.kind = FrameSourceKind::kKinectChannel;
+  config_.depth_camera.calibration.mount = {"head", {0.0, 0.0, 0.5}, {1.0, 0.0, 0.0, 0.0}};
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  const auto rig = driver.Convert(Rgbd({64, 48})).calibration;
+  for (const auto& camera : {rig->left, rig->right, rig->rectified}) {
+    EXPECT_EQ(camera.parent_frame, "head");
+    EXPECT_EQ(camera.parent_from_camera->translation_m, Eigen::Vector3d(0.0, 0.0, 0.5));
+    EXPECT_EQ(camera.parent_from_camera->rotation.w(), 1.0);
+  }
+}
+
+TEST_F(StereoDriverTest, SaysNothingOfARectificationThatADepthCamerasPicturesDoNotHave) {
+  config_.source.kind = FrameSourceKind::kDimos;
+  StereoDriver driver(config_, nullptr, KeepPairs::kNo);
+  geometry::CameraCalibration lens = geometry::GuessCalibration(64, 48, 1.0);
+  lens.rectification = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  driver.UseLens(lens);
+  EXPECT_TRUE(driver.Convert(Rgbd({64, 48})).calibration->left.rectification.isIdentity(0.0));
+}
+
 TEST_F(StereoDriverTest, RefusesPairsOfAnotherAspectThanTheCalibrationAndGoesOn) {
   config_.calibration.width_px = 320;
   config_.calibration.height_px = 240;
