@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+import subprocess
 from pathlib import Path
 
+import pytest
+
 from deixis_frontend import __version__, lcm_url
-from deixis_frontend.cli import COMMANDS
+from deixis_frontend.cli import COMMANDS, main
 from deixis_frontend.listening import rates
 from deixis_lcm import decoding
 
@@ -42,6 +45,17 @@ def test_what_does_not_decode_is_counted_by_the_words_of_the_services(repository
     python = (repository / "scripts/python/deixis_lcm/decoding.py").read_text(encoding="utf-8")
     used = set(re.findall(r'(?:DecodeError\(|data, )"(\w+)"', python))
     assert used == set(decoding.REASONS) == words - {"too_large"}  # No Python reads 2 GB at once.
+
+
+def test_the_help_names_the_services_that_are_hosted_unless_others_are_named(
+        build: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = subprocess.run([build / "bin/deixis-offline", "--help"], capture_output=True, text=True,
+                          check=True).stdout
+    [default] = re.findall(r"--services[^\[]*\[(.*?)\]", said, re.DOTALL)
+    services = re.sub(r"[\s\[]", "", default)
+    with pytest.raises(SystemExit):
+        main(["run-offline", "--help"])
+    assert f"default:{services};" in re.sub(r"\s", "", capsys.readouterr().out)
 
 
 def test_the_readme_has_every_command_and_no_other(repository: Path) -> None:

@@ -15,8 +15,8 @@ from test_types import STRUCTS, Filler
 from deixis_frontend.demo.clip import Clip
 from deixis_frontend.demo.commentary import Commentary
 from deixis_frontend.printable import printable
-from deixis_frontend.received import Decoder, finite
-from deixis_frontend.supervision.status_listener import as_facts
+from deixis_frontend.received import ChannelDecoder, finite
+from deixis_frontend.service_facts import as_facts
 from deixis_lcm import logs
 
 LIES = [struct.pack(">I", lie) for lie in
@@ -43,7 +43,7 @@ def status(build: Path) -> Any:  # pylint: disable=unused-argument
 @pytest.mark.parametrize("name", sorted(STRUCTS))
 def test_lies_in_place_of_any_four_bytes_are_refused_or_understood(name: str, build: Path) -> None:
     # pylint: disable=unused-argument
-    decode = Decoder(type_of(name), "ANY")
+    decode = ChannelDecoder(type_of(name), "ANY")
     whole = good(name)
     assert decode(whole) is not None
     for at in range(8, len(whole) - 3):
@@ -56,21 +56,21 @@ def test_lies_in_place_of_any_four_bytes_are_refused_or_understood(name: str, bu
 @pytest.mark.parametrize("name", ["deixis.service_status_t", "deixis.gesture_t"])
 def test_every_truncation_is_refused(name: str, build: Path) -> None:
     # pylint: disable=unused-argument
-    decode = Decoder(type_of(name), "ANY")
+    decode = ChannelDecoder(type_of(name), "ANY")
     whole = good(name)
     assert all(decode(whole[:size]) is None for size in range(len(whole)))
 
 
 def test_noise_is_refused_or_understood(status: Any) -> None:
     numbers = random.Random(3)
-    decode = Decoder(status, "SERVICE_STATUS")
+    decode = ChannelDecoder(status, "SERVICE_STATUS")
     for _ in range(2000):
         decode(status._get_packed_fingerprint() + numbers.randbytes(numbers.randrange(300)))
     assert decode.refused > 1900
 
 
 def test_what_is_refused_is_said_once(status: Any, capfd: pytest.CaptureFixture[str]) -> None:
-    decode = Decoder(status, "SERVICE_STATUS")
+    decode = ChannelDecoder(status, "SERVICE_STATUS")
     assert decode(b"") is None
     assert decode(good("deixis.gesture_t")) is None
     assert decode.refused == 2

@@ -101,7 +101,7 @@ def free_port() -> int:
 def why_multicast_fails(group: str = GROUP, seconds: float = 0.3, tries: int = 3) -> str | None:
     """None when a multicast datagram that is sent here arrives here, else the reason."""
     try:
-        with _member(group) as receiver, _sender() as sender:
+        with member(group) as receiver, _sender() as sender:
             port = receiver.getsockname()[1]
             return _exchange(receiver, sender, (group, port), seconds, tries)
     except OSError as error:
@@ -200,9 +200,13 @@ def _is_multicast(host: str) -> bool:
         return False
 
 
-def _member(group: str) -> socket.socket:
+def member(group: str, port: int | None = None) -> socket.socket:
+    """A socket that hears what is sent to the group: on a port that others hear, too, or a free one."""
     receiver = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    receiver.bind(("", 0))
+    if port is not None:
+        receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVE_BUFFER_BYTES)
+    receiver.bind(("", port or 0))
     membership = struct.pack("4s4s", socket.inet_aton(group), socket.inet_aton("0.0.0.0"))
     receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
     return receiver

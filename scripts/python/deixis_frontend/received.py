@@ -12,7 +12,7 @@ def _to_stderr(text: str) -> None:
     print(text, file=sys.stderr)
 
 
-class Decoder:
+class ChannelDecoder:
     """Turns what comes on a channel into messages of one type."""
 
     def __init__(self, message_type: Any, channel: str,

@@ -20,7 +20,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The two logs; what else is given goes to deixis-offline as it is."""
     parser.add_argument("input", type=Path, help="log to read")
     parser.add_argument("output", type=Path, help="log to write")
-    parser.add_argument("--services", metavar="A,B", help="services to host (default: all)")
+    parser.add_argument("--services", metavar="A,B",
+                        help="services to host (default: object_detector,hand_tracker,"
+                             "gesture_recogniser; stereo_driver only when it is named)")
     parser.add_argument("--set", action="append", default=[], metavar="SERVICE.KEY=VALUE",
                         help="one key of one service's configuration; repeatable")
     parser.add_argument("--config", action="append", default=[], metavar="SERVICE=FILE",

@@ -9,7 +9,7 @@ from typing import Any
 
 from deixis_frontend.demo.clip import Clip, Label
 from deixis_frontend.printable import printable
-from deixis_frontend.received import Decoder
+from deixis_frontend.received import ChannelDecoder
 
 _LATE_S = 0.5  # a gesture may be named until so long after its end
 _UTIME_END = 16  # bytes of a message up to there
@@ -24,7 +24,7 @@ class Commentary:
         """With `seconds`, what lies beyond so much of the clip is passed over."""
         self._clip = clip
         self._limit_s = seconds or math.inf
-        self._decode = Decoder(gesture_type, "GESTURES")
+        self._decode = ChannelDecoder(gesture_type, "GESTURES")
         self._picture_times: list[int] = []
         self._last_picture = 0
         self._events: dict[int, Any] = {}

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding
-from deixis_frontend.supervision.process_facts import command_name
+from deixis_frontend.process_facts import command_name
 
 _LITTLE_SPACE, _NO_SPACE = 1e9, 1e8  # bytes: a few minutes of recording; nothing to speak of
 _EARLIEST = 1_704_067_200  # 2024-01-01: a clock before that has never been set

@@ -23,10 +23,10 @@ from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import report_options
 from deixis_frontend.number_options import above_zero
+from deixis_frontend.process_facts import cpu_seconds, resident_bytes
 from deixis_frontend.programs import last_words
-from deixis_frontend.received import Decoder
-from deixis_frontend.supervision.process_facts import cpu_seconds, resident_bytes
-from deixis_frontend.supervision.status_listener import CHANNEL, as_facts
+from deixis_frontend.received import ChannelDecoder
+from deixis_frontend.service_facts import CHANNEL, as_facts
 
 CONSUMERS = ("object_detector", "hand_tracker", "gesture_recogniser")
 START_UP_LIMIT_S = 20.0
@@ -117,7 +117,7 @@ class _Chain:
         self._folder = folder
         self._url = url
         self._feed = feed
-        self._decode = Decoder(service_status_t, CHANNEL)
+        self._decode = ChannelDecoder(service_status_t, CHANNEL)
         self._bus = open_bus(url)
         self._bus.subscribe(CHANNEL, self._on_status)
         self._processes: dict[str, subprocess.Popen[bytes]] = {}

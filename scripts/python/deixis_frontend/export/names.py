@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from deixis import object_t
+from deixis import gesture_t, hand_t, object_t
 
-_SIDES = {1: "left", 2: "right"}  # as in hand_t; the person's own
-_OUTCOMES = {1: "no known object", 2: "several objects"}  # as in gesture_t
+_SIDES = {hand_t.LEFT: "left", hand_t.RIGHT: "right"}  # the person's own
+_OUTCOMES = {gesture_t.NO_OBJECT: "no known object", gesture_t.AMBIGUOUS: "several objects"}
 
 
 def side(number: int) -> str:

@@ -9,12 +9,12 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 
 from deixis_frontend.export import names
 from deixis_frontend.export.drawing import stamp
-from deixis_frontend.supervision.status_listener import STATES
+from deixis_frontend.service_facts import state_name
 
 
 def status(message: Any) -> Log:
     """State and text of a service_status_t."""
-    state = STATES[message.state] if 0 <= message.state < len(STATES) else f"state {message.state}"
+    state = state_name(message.state)
     is_degraded = message.state == service_status_t.DEGRADED
     return Log(timestamp=stamp(message.utime), name=service(message),
                level=Log.WARNING if is_degraded else Log.INFO,

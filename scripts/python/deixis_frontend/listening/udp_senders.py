@@ -8,24 +8,22 @@ All numbers are big-endian.
 from __future__ import annotations
 
 import select
-import socket
 import struct
 import threading
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from deixis_frontend.lcm_url import LcmUrl
+from deixis_frontend.lcm_url import LcmUrl, member
 from deixis_frontend.listening.source import MOST_CHANNELS
 from deixis_frontend.printable import printable
-from deixis_frontend.supervision.process_facts import command_name
+from deixis_frontend.process_facts import command_name
 
 _SMALL, _FRAGMENT = b"LC02", b"LC03"
 _SMALL_HEADER = struct.Struct(">4sI")
 _FRAGMENT_HEADER = struct.Struct(">4sIIIHH")  # magic, number, size, offset, index, count
 _LONGEST_CHANNEL = 63  # LCM's own limit
 _LONGEST_DATAGRAM = 65_536
-_BUFFER_BYTES = 4 * 1024 * 1024
 _POLL_S = 0.1
 MOST_SENDERS = 100  # of a channel that are told apart
 Address = tuple[str, int]
@@ -87,7 +85,7 @@ class SenderWatch:
 
     def __init__(self, url: LcmUrl) -> None:
         self.senders = Senders()
-        self._socket = _member(url)
+        self._socket = member(url.group, url.port)
         self._is_over = threading.Event()
         self._thread = threading.Thread(target=self._listen, daemon=True)
 
@@ -108,16 +106,6 @@ class SenderWatch:
             channel = channel_of(datagram)
             if channel is not None:
                 self.senders.add(channel, address[:2], time.monotonic())
-
-
-def _member(url: LcmUrl) -> socket.socket:
-    receiver = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _BUFFER_BYTES)
-    receiver.bind(("", url.port))
-    membership = struct.pack("4s4s", socket.inet_aton(url.group), socket.inet_aton("0.0.0.0"))
-    receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
-    return receiver
 
 
 def process_names(addresses: list[Address]) -> dict[Address, str]:

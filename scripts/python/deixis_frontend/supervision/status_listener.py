@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import math
 import re
 from collections.abc import Callable
 from typing import Any
@@ -11,13 +10,11 @@ from typing import Any
 from deixis_frontend.bus import open_bus
 from deixis_frontend.layout import Layout
 from deixis_frontend.lcm_url import LcmUrl
-from deixis_frontend.printable import printable
-from deixis_frontend.received import Decoder, finite
+from deixis_frontend.received import ChannelDecoder
+from deixis_frontend.service_facts import CHANNEL
 from deixis_frontend.supervision.own_log import say
 
-CHANNEL = "SERVICE_STATUS"
 _MOST_PER_TURN = 100
-STATES = ("starting", "running", "degraded", "stopping")
 
 
 class StatusListener:
@@ -28,7 +25,7 @@ class StatusListener:
         layout.use_types()
         from deixis import service_status_t
 
-        self._decode = Decoder(service_status_t, CHANNEL, say)
+        self._decode = ChannelDecoder(service_status_t, CHANNEL, say)
         self._on_status = on_status
         self._bus = open_bus(url)
         self._bus.subscribe(re.escape(prefix + CHANNEL), self._handle)
@@ -47,32 +44,3 @@ class StatusListener:
         message = self._decode(data)
         if message is not None:
             self._on_status(message)
-
-
-def as_facts(message: Any) -> dict[str, Any]:
-    """A service_status_t as plain values for JSON; -1 becomes None where it means unknown."""
-    return {
-        "version": printable(message.version),
-        "text": printable(message.text),
-        "channels": [_channel(channel) for channel in message.channels],
-        "processing_ms": _percentiles(message.processing_ms_p50, message.processing_ms_p99),
-        "age_ms": _percentiles(message.age_ms_p50, message.age_ms_p99),
-        "receive_buffer_bytes": message.receive_buffer_bytes,
-    }
-
-
-def _channel(channel: Any) -> dict[str, Any]:
-    return {
-        "name": printable(channel.name),
-        "direction": "out" if channel.direction == channel.OUT else "in",
-        "messages": channel.messages,
-        "rate_hz": finite(channel.rate_hz),
-        "gaps": channel.gaps,
-        "skipped": channel.skipped,
-        "drops": {printable(drop.reason): drop.count for drop in channel.drops},
-    }
-
-
-def _percentiles(p50: float, p99: float) -> dict[str, float | None]:
-    return {"p50": p50 if 0 <= p50 < math.inf else None,
-            "p99": p99 if 0 <= p99 < math.inf else None}

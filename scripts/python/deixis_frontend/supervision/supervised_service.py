@@ -12,9 +12,9 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
+from deixis_frontend import process_facts, service_facts
 from deixis_frontend.errors import UserError
 from deixis_frontend.printable import printable
-from deixis_frontend.supervision import process_facts, status_listener
 from deixis_frontend.supervision.echoed_log import EchoedLog
 from deixis_frontend.supervision.restart_policy import (
     WRONG_USAGE, Ending, RestartPolicy, Verdict)
@@ -109,7 +109,7 @@ class SupervisedService:
         """Takes a status message of this service and instance."""
         is_here = message.host == socket.gethostname()
         if is_here and self._process and self._process.owns(message.pid):
-            self._heard = status_listener.as_facts(message)
+            self._heard = service_facts.as_facts(message)
             self._heard_at = time.monotonic()
             self._follow(message.state)
         else:
@@ -159,7 +159,7 @@ class SupervisedService:
         return self.state in READY and now - self._heard_at > SILENT_AFTER_S
 
     def _follow(self, state: int) -> None:
-        name = status_listener.STATES[state] if 0 <= state < len(status_listener.STATES) else ""
+        name = service_facts.state_name(state)
         if name in (State.RUNNING.value, State.DEGRADED.value) and self.state in (
                 State.STARTING, *READY):
             if self.state is State.STARTING:
