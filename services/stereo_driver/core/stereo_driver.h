@@ -8,11 +8,11 @@
 #include "common/capture/calibration_schedule.h"
 #include "common/capture/pacer.h"
 #include "common/images/stereo_image.h"
-#include "services/stereo_driver/core/depth_camera.h"
-#include "services/stereo_driver/core/registration_calibration.h"
-#include "services/stereo_driver/core/rig_calibration.h"
+#include "services/stereo_driver/core/calibration/registration_calibration.h"
+#include "services/stereo_driver/core/calibration/rig_calibration.h"
+#include "services/stereo_driver/core/depth_camera/depth_camera.h"
+#include "services/stereo_driver/core/matching/stereo_matcher.h"
 #include "services/stereo_driver/core/sources/sources.h"
-#include "services/stereo_driver/core/stereo_matcher.h"
 
 namespace deixis::stereo_driver {
 

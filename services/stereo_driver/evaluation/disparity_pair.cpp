@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/config/config.h"
-#include "services/stereo_driver/core/disparity.h"
+#include "services/stereo_driver/core/matching/disparity.h"
 
 namespace deixis::stereo_driver {
 namespace {

@@ -3,7 +3,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "services/stereo_driver/core/stereo_matcher.h"
+#include "services/stereo_driver/core/matching/stereo_matcher.h"
 
 namespace deixis::stereo_driver {
 

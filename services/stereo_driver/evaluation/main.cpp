@@ -7,8 +7,8 @@
 #include <opencv2/core/utility.hpp>
 
 #include "common/program/command_line.h"
-#include "services/stereo_driver/core/rig_calibration.h"
-#include "services/stereo_driver/core/stereo_matcher.h"
+#include "services/stereo_driver/core/calibration/rig_calibration.h"
+#include "services/stereo_driver/core/matching/stereo_matcher.h"
 #include "services/stereo_driver/evaluation/disparity_pair.h"
 #include "services/stereo_driver/evaluation/error_picture.h"
 #include "services/stereo_driver/evaluation/plain_opencv.h"

@@ -3,7 +3,7 @@
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "services/stereo_driver/core/camera_matrix.h"
+#include "services/stereo_driver/core/calibration/camera_matrix.h"
 
 namespace deixis::stereo_driver {
 

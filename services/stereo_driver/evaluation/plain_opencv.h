@@ -4,7 +4,7 @@
 
 #include "common/geometry/stereo_calibration.h"
 #include "common/images/stereo_pair.h"
-#include "services/stereo_driver/core/disparity.h"
+#include "services/stereo_driver/core/matching/disparity.h"
 
 namespace deixis::stereo_driver {
 

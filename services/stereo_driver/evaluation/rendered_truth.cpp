@@ -4,7 +4,7 @@
 #include <opencv2/calib3d.hpp>
 #include <vector>
 
-#include "services/stereo_driver/core/camera_matrix.h"
+#include "services/stereo_driver/core/calibration/camera_matrix.h"
 
 namespace deixis::stereo_driver {
 namespace {

@@ -7,8 +7,8 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "services/stereo_driver/core/camera_matrix.h"
-#include "services/stereo_driver/core/depth_registration.h"
+#include "services/stereo_driver/core/calibration/camera_matrix.h"
+#include "services/stereo_driver/core/depth_camera/depth_registration.h"
 
 namespace deixis::stereo_driver {
 namespace {

@@ -6,8 +6,8 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "services/stereo_driver/core/camera_matrix.h"
-#include "services/stereo_driver/core/stereo_matcher.h"
+#include "services/stereo_driver/core/calibration/camera_matrix.h"
+#include "services/stereo_driver/core/matching/stereo_matcher.h"
 
 namespace deixis::stereo_driver {
 namespace {

@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/depth_camera.h"
+#include "services/stereo_driver/core/depth_camera/depth_camera.h"
 
 #include <gtest/gtest.h>
 

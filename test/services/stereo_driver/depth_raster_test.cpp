@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/depth_raster.h"
+#include "services/stereo_driver/core/depth_camera/depth_raster.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/depth_registration.h"
+#include "services/stereo_driver/core/depth_camera/depth_registration.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/depth.h"
+#include "services/stereo_driver/core/matching/depth.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <stdexcept>
 
-#include "services/stereo_driver/core/disparity.h"
+#include "services/stereo_driver/core/matching/disparity.h"
 
 namespace deixis::stereo_driver {
 namespace {

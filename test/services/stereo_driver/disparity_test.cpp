@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/disparity.h"
+#include "services/stereo_driver/core/matching/disparity.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "services/stereo_driver/core/refinement.h"
+#include "services/stereo_driver/core/matching/refinement.h"
 #include "test/services/stereo_driver/synthetic_rig.h"
 
 namespace deixis::stereo_driver {

@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/registration_calibration.h"
+#include "services/stereo_driver/core/calibration/registration_calibration.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/rig_calibration.h"
+#include "services/stereo_driver/core/calibration/rig_calibration.h"
 
 #include <gmock/gmock.h>
 

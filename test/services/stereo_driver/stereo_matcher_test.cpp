@@ -1,11 +1,11 @@
-#include "services/stereo_driver/core/stereo_matcher.h"
+#include "services/stereo_driver/core/matching/stereo_matcher.h"
 
 #include <gmock/gmock.h>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "services/stereo_driver/core/rig_calibration.h"
+#include "services/stereo_driver/core/calibration/rig_calibration.h"
 #include "test/services/stereo_driver/synthetic_rig.h"
 #include "test/support/temporary_folder.h"
 

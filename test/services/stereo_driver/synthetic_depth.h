@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "services/stereo_driver/core/depth_registration.h"
+#include "services/stereo_driver/core/depth_camera/depth_registration.h"
 #include "test/services/stereo_driver/synthetic_rig.h"
 
 namespace deixis::stereo_driver {

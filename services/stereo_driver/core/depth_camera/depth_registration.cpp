@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/depth_registration.h"
+#include "services/stereo_driver/core/depth_camera/depth_registration.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "services/stereo_driver/core/camera_matrix.h"
-#include "services/stereo_driver/core/depth_raster.h"
+#include "services/stereo_driver/core/calibration/camera_matrix.h"
+#include "services/stereo_driver/core/depth_camera/depth_raster.h"
 
 namespace deixis::stereo_driver {
 namespace {

@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/disparity.h"
+#include "services/stereo_driver/core/matching/disparity.h"
 
 #include <algorithm>
 #include <cmath>

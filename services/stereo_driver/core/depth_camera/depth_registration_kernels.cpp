@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/depth_registration_kernels.h"
+#include "services/stereo_driver/core/depth_camera/depth_registration_kernels.h"
 
 namespace deixis::stereo_driver {
 namespace {

@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/rig_files.h"
+#include "services/stereo_driver/core/calibration/rig_files.h"
 
 #include <cmath>
 #include <opencv2/core/eigen.hpp>

@@ -1,11 +1,11 @@
-#include "services/stereo_driver/core/rectifier.h"
+#include "services/stereo_driver/core/matching/rectifier.h"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "services/stereo_driver/core/camera_matrix.h"
+#include "services/stereo_driver/core/calibration/camera_matrix.h"
 
 namespace deixis::stereo_driver {
 namespace {

@@ -7,10 +7,10 @@
 #include "common/config/config.h"
 #include "common/geometry/stereo_calibration.h"
 #include "common/images/stereo_pair.h"
-#include "services/stereo_driver/core/depth.h"
-#include "services/stereo_driver/core/disparity.h"
-#include "services/stereo_driver/core/rectifier.h"
-#include "services/stereo_driver/core/refinement.h"
+#include "services/stereo_driver/core/matching/depth.h"
+#include "services/stereo_driver/core/matching/disparity.h"
+#include "services/stereo_driver/core/matching/rectifier.h"
+#include "services/stereo_driver/core/matching/refinement.h"
 
 namespace deixis::stereo_driver {
 

@@ -4,8 +4,8 @@
 
 #include "common/geometry/stereo_calibration.h"
 #include "common/images/rgbd_image.h"
-#include "services/stereo_driver/core/depth_registration.h"
-#include "services/stereo_driver/core/stereo_matcher.h"
+#include "services/stereo_driver/core/depth_camera/depth_registration.h"
+#include "services/stereo_driver/core/matching/stereo_matcher.h"
 
 namespace deixis::stereo_driver {
 

@@ -1,8 +1,8 @@
-#include "services/stereo_driver/core/registration_calibration.h"
+#include "services/stereo_driver/core/calibration/registration_calibration.h"
 
 #include <utility>
 
-#include "services/stereo_driver/core/rig_files.h"
+#include "services/stereo_driver/core/calibration/rig_files.h"
 
 namespace deixis::stereo_driver {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 
-#include "services/stereo_driver/core/depth_registration_kernels.h"
+#include "services/stereo_driver/core/depth_camera/depth_registration_kernels.h"
 
 namespace deixis::stereo_driver {
 

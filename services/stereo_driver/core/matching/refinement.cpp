@@ -1,12 +1,12 @@
-#include "services/stereo_driver/core/refinement.h"
+#include "services/stereo_driver/core/matching/refinement.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "services/stereo_driver/core/disparity.h"
-#include "services/stereo_driver/core/refinement_kernels.h"
+#include "services/stereo_driver/core/matching/disparity.h"
+#include "services/stereo_driver/core/matching/refinement_kernels.h"
 
 namespace deixis::stereo_driver {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "common/capture/calibration.h"
 #include "common/config/config.h"
-#include "services/stereo_driver/core/depth_registration.h"
+#include "services/stereo_driver/core/depth_camera/depth_registration.h"
 
 namespace deixis::stereo_driver {
 

@@ -1,12 +1,12 @@
-#include "services/stereo_driver/core/depth.h"
+#include "services/stereo_driver/core/matching/depth.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 
-#include "services/stereo_driver/core/disparity.h"
-#include "services/stereo_driver/core/halving.h"
+#include "services/stereo_driver/core/matching/disparity.h"
+#include "services/stereo_driver/core/matching/halving.h"
 
 namespace deixis::stereo_driver {
 namespace {

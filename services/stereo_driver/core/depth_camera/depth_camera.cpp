@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/depth_camera.h"
+#include "services/stereo_driver/core/depth_camera/depth_camera.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "services/stereo_driver/core/camera_matrix.h"
-#include "services/stereo_driver/core/halving.h"
+#include "services/stereo_driver/core/calibration/camera_matrix.h"
+#include "services/stereo_driver/core/matching/halving.h"
 
 namespace deixis::stereo_driver {
 namespace {

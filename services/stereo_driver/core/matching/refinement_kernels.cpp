@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/refinement_kernels.h"
+#include "services/stereo_driver/core/matching/refinement_kernels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "services/stereo_driver/core/stereo_matcher.h"
+#include "services/stereo_driver/core/matching/stereo_matcher.h"
 
 #include <opencv2/imgproc.hpp>
 

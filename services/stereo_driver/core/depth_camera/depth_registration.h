@@ -5,7 +5,7 @@
 
 #include "common/geometry/camera_calibration.h"
 #include "common/geometry/rigid_transform.h"
-#include "services/stereo_driver/core/depth_registration_kernels.h"
+#include "services/stereo_driver/core/depth_camera/depth_registration_kernels.h"
 
 namespace deixis::stereo_driver {
 

@@ -1,11 +1,11 @@
-#include "services/stereo_driver/core/rig_calibration.h"
+#include "services/stereo_driver/core/calibration/rig_calibration.h"
 
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
-#include "services/stereo_driver/core/camera_matrix.h"
-#include "services/stereo_driver/core/rig_files.h"
+#include "services/stereo_driver/core/calibration/camera_matrix.h"
+#include "services/stereo_driver/core/calibration/rig_files.h"
 
 namespace deixis::stereo_driver {
 namespace {
