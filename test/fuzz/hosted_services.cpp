@@ -123,14 +123,22 @@ std::map<std::string, std::int64_t> HostedServices::Published() const {
   return published;
 }
 
-std::string HostedServices::Complaint() {
+std::string HostedServices::FirstSilent() {
   auto before = Published();
   time_us_ += 33'333;
   for (const std::string& name : kAsked) SendGood(name);
   auto after = Published();
   for (const std::string& answer : kAnswers) {
-    if (after[answer] == before[answer]) return "nothing is published on " + answer;
+    if (after[answer] == before[answer]) return answer;
   }
+  return "";
+}
+
+std::string HostedServices::Complaint() {
+  // Of what is paired by time, one good message may be lost to a damaged partner of a time to come.
+  std::string silent = FirstSilent();
+  if (!silent.empty()) silent = FirstSilent();
+  if (!silent.empty()) return "nothing is published on " + silent;
   for (const auto& channel : bus_.statistics()) {
     for (const char* reason : {"handler_failed", "malformed"}) {
       if (channel.drops.count(reason) != 0) return channel.channel + ": " + reason;

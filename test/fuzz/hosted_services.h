@@ -24,7 +24,7 @@ class HostedServices {
   void Send(const std::string& channel, messages::Bytes bytes);
 
   /// What is not as it must be after all that was sent, "" when nothing: a handler has failed, a
-  /// good message is not answered, the status does not go out.
+  /// good message is not answered, nor the next one, the status does not go out.
   std::string Complaint();
 
  private:
@@ -36,6 +36,7 @@ class HostedServices {
   void HandleAll();
   void SendGood(const std::string& name);
   std::map<std::string, std::int64_t> Published() const;
+  std::string FirstSilent();  ///< Channel on which good messages are not answered; "" = none.
 
   test::TemporaryFolder folder_;
   transport::Bus bus_;
