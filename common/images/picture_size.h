@@ -3,9 +3,10 @@
 
 namespace deixis::images {
 
-/// Pixels of a picture and its longest side: no camera's are larger, memory for a few is there, and
-/// OpenCV works on them. Its remap takes sides below 32767 only, its JPEG encoder up to 65500.
-inline constexpr std::int64_t kMostPixels = 64 * 1024 * 1024;
+/// Pixels of a picture and its longest side: room for 8K video; memory for a few is there, every
+/// service is done with one within seconds, and OpenCV works on them. Its remap takes sides below
+/// 32767 only, its JPEG encoder up to 65500.
+inline constexpr std::int64_t kMostPixels = 40 * 1024 * 1024;
 inline constexpr std::int64_t kLongestSide_px = 32766;
 
 /// Whether pictures of that size can go through the whole system.

@@ -1,5 +1,7 @@
 #include "common/program/service_loop.h"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <exception>
 
@@ -13,8 +15,14 @@ constexpr std::chrono::milliseconds kLongestWait{100};
 constexpr std::chrono::milliseconds kIdleWait{2};
 
 volatile std::sig_atomic_t stop_requested = 0;
+volatile std::sig_atomic_t loop_has_begun = 0;
 
-extern "C" void RequestStop(int) { stop_requested = 1; }
+// Before the loop nothing has been said that would have to be taken back, and opening a camera may
+// take half a minute.
+extern "C" void RequestStop(int) {
+  if (loop_has_begun == 0) _exit(kStopped);
+  stop_requested = 1;
+}
 
 std::chrono::milliseconds WaitAfter(StepResult result) {
   return result == StepResult::kContinue ? std::chrono::milliseconds{0} : kIdleWait;
@@ -39,6 +47,7 @@ void StopOnSignals() {
 }
 
 void Loop(const Hosted& hosted, transport::Bus& bus, transport::StatusReporter& status) {
+  loop_has_begun = 1;
   while (stop_requested == 0 && !bus.is_exhausted()) {
     std::chrono::milliseconds wait = kLongestWait;
     if (hosted.step) {

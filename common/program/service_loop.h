@@ -21,7 +21,8 @@ struct Hosted {
   std::function<transport::Health()> health;  ///< Empty for services that are always well.
 };
 
-/// Makes SIGINT and SIGTERM end the loop; call before threads are started.
+/// Makes SIGINT and SIGTERM end the loop, and the program at once while it has not begun; call
+/// before threads are started.
 void StopOnSignals();
 
 /// Handles messages, steps the source, reports status, until a signal arrives, the source is

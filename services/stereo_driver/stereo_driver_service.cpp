@@ -175,7 +175,8 @@ transport::Health StereoDriverService::health() const {
   health.SayCount(status.pictures.skipped, "skipped pictures");
   health.SayCount(status.unmatched_left, "left pictures without a right one");
   health.SayCount(status.unmatched_right, "right pictures without a left one");
-  health.SayCount(status.unusable, "pictures that make no pair");
+  const std::string& why = status.last_unusable;
+  health.SayCount(status.unusable, "pictures that make no pair" + (why.empty() ? "" : ": " + why));
   return health;
 }
 

@@ -12,7 +12,6 @@ namespace {
 using capture::SourceState;
 
 constexpr double kLargestDepthSigma_m = 1.0;
-constexpr int kLeastMatched_px = 16;  // Below it OpenCV's matchers find no room for their windows.
 
 bool MeasuresDepth(FrameSourceKind kind) {
   return kind == FrameSourceKind::kColourAndDepth || kind == FrameSourceKind::kKinectChannel ||
@@ -77,11 +76,6 @@ void RequireSameView(const images::RgbdImage& image) {
   if (images::MayCoverSameView(depth, picture)) return;
   throw UnusableFrame("depth of " + Text(depth) + " is of another aspect than its picture of " +
                       Text(picture));
-}
-
-void RequireMatchable(cv::Size size) {
-  if (size.width >= kLeastMatched_px && size.height >= kLeastMatched_px) return;
-  throw UnusableFrame("pictures of " + Text(size) + " are too small to be matched");
 }
 
 capture::Calibration ColourLens(const capture::CalibrationConfig& config,
@@ -172,7 +166,6 @@ std::optional<StereoOutput> StereoDriver::ConvertAt(Timestamp time, Frame frame)
 }
 
 StereoOutput StereoDriver::Convert(const images::StereoPair& pair) {
-  RequireMatchable(pair.left.bgr.size());
   PrepareRig(pair.left.bgr.size());
   StereoOutput output = Packed(matcher_->Measure(pair), pair.left.time);
   if (keep_pairs_ == KeepPairs::kYes) output.pair = Encoded(pair, config_);
@@ -193,6 +186,8 @@ StereoOutput StereoDriver::Convert(const images::RgbdImage& image) {
 void StereoDriver::PrepareRig(cv::Size size) {
   if (matcher_ && IsOfSize(calibration_, size)) return;
   auto [calibration, remark] = rig_->For(size);
+  const std::string fault = MatchingFault(config_.matcher, calibration);
+  if (!fault.empty()) throw UnusableFrame(fault);
   matcher_.emplace(config_.matcher, calibration);
   calibration_ = std::move(calibration);
   remark_ = std::move(remark);
@@ -247,6 +242,7 @@ FrameSourceStatus StereoDriver::status() const {
   status.pictures.is_live = true;
   if (source_) status = source_->status();
   status.unusable += unusable_;
+  status.last_unusable = last_unusable_;
   return status;
 }
 

@@ -99,8 +99,8 @@ class StereoDriver {
   /// when the calibration does not suit the pictures.
   StereoStep Next(Timestamp now);
 
-  /// Throws UnusableFrame when the pictures are too small to be matched, and ConfigError when the
-  /// calibration does not suit them.
+  /// Throws UnusableFrame when the pictures are too small or too large to be matched, and
+  /// ConfigError when the calibration does not suit them.
   StereoOutput Convert(const images::StereoPair& pair);
   /// Throws UnusableFrame when the depth cannot cover the colour picture's view.
   StereoOutput Convert(const images::RgbdImage& image);
@@ -109,8 +109,9 @@ class StereoDriver {
   std::optional<StereoOutput> TryConvert(const Images& images) {
     try {
       return Convert(images);
-    } catch (const UnusableFrame&) {
+    } catch (const UnusableFrame& reason) {
       ++unusable_;
+      last_unusable_ = reason.what();
       return std::nullopt;
     }
   }
@@ -147,6 +148,7 @@ class StereoDriver {
   bool is_live_ = true;
   std::optional<Frame> waiting_;  ///< Recorded frame whose time has not come.
   std::int64_t unusable_ = 0;     ///< Frames that could not be converted.
+  std::string last_unusable_;     ///< Why the last of them could not.
 
   std::optional<RigCalibration> rig_;                    ///< For pairs.
   std::optional<capture::Calibration> lens_;             ///< For colour and depth.

@@ -32,6 +32,7 @@ int steps_done = 0;
 class Countdown {
  public:
   Countdown(const CountdownConfig& config, transport::Bus&, transport::Bus&) : config_(config) {
+    if (config.steps == 98) std::raise(SIGTERM);
     if (config.steps == 99) throw std::runtime_error("device /dev/none is missing; plug it in");
     steps_done = 0;
   }
@@ -68,6 +69,16 @@ class RunServiceTest : public testing::Test {
 TEST_F(RunServiceTest, EndsWithZeroWhenTheSourceIsFinished) {
   EXPECT_EQ(Run("steps: 4", {}), 0);
   EXPECT_EQ(steps_done, 4);
+}
+
+TEST_F(RunServiceTest, EndsAtOnceWhenTheSignalComesWhileTheServiceIsMade) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(
+      {
+        Run("steps: 98", {});
+        std::abort();
+      },
+      testing::ExitedWithCode(0), "");
 }
 
 TEST_F(RunServiceTest, TakesOverridesFromTheCommandLine) {

@@ -148,6 +148,7 @@ TEST_F(StereoDriverServiceTest, CountsPairsThatAreTooSmallAndGoesOn) {
   EXPECT_THAT(DropsOn("STEREO_PAIR"), IsEmpty());
   EXPECT_EQ(received_.size(), 3u);
   EXPECT_THAT(service.health().text, HasSubstr(std::to_string(unusable) + " pictures that make"));
+  EXPECT_THAT(service.health().text, HasSubstr("pictures of 40x3 are too small to be matched"));
 }
 
 TEST_F(StereoDriverServiceTest, MatchesRecordedPairsAgainToTheSame) {

@@ -148,6 +148,27 @@ TEST(StereoMatcher, RefusesPicturesOfAnotherSize) {
   EXPECT_THROW(matcher.Measure(pair), std::logic_error);
 }
 
+TEST(MatchingFault, TellsPicturesTooSmallForTheBlocksOfTheMethod) {
+  geometry::StereoCalibration calibration = SyntheticRig();
+  StereoMatcherConfig config;
+  calibration.rectified = geometry::Scaled(calibration.rectified, 28, 24);
+  EXPECT_EQ(MatchingFault(config, calibration), "");
+  config.disparity.method = Method::kBm;
+  EXPECT_THAT(MatchingFault(config, calibration), testing::HasSubstr("28x24 are too small"));
+}
+
+TEST(MatchingFault, TellsPicturesThatWouldTakeTooLong) {
+  geometry::StereoCalibration calibration = SyntheticRig();
+  StereoMatcherConfig config;
+  calibration.rectified = geometry::Scaled(calibration.rectified, 3840, 2160);
+  EXPECT_EQ(MatchingFault(config, calibration), "");
+  config.match_size = Size::kFull;
+  config.nearest_m = 0.1;
+  EXPECT_THAT(MatchingFault(config, calibration), testing::HasSubstr("too large"));
+  config.nearest_m = 5.0;
+  EXPECT_EQ(MatchingFault(config, calibration), "");
+}
+
 TEST(StereoMatcherConfig, DepthIsNotLargerThanWhatIsMatched) {
   StereoMatcherConfig config;
   config.match_size = Size::kHalf;

@@ -38,7 +38,7 @@ cv::Ptr<cv::StereoMatcher> MakeSgbm(const DisparityConfig& config, int num_dispa
 }
 
 cv::Ptr<cv::StereoMatcher> MakeBm(const DisparityConfig& config, int num_disparities) {
-  const int block_px = config.block_px > 0 ? config.block_px : kDefaultBmBlock_px;
+  const int block_px = BlockSide_px(config);
   const cv::Ptr<cv::StereoBM> matcher = cv::StereoBM::create(num_disparities, block_px);
   matcher->setPreFilterCap(config.prefilter_cap);
   matcher->setTextureThreshold(config.texture_threshold);
@@ -81,6 +81,11 @@ void DisparityConfig::Validate() const {
   faults.Require(speckle_area_px >= 0, "speckle_area_px", "must not be negative");
   faults.Require(speckle_range_px >= 1, "speckle_range_px", "must be positive");
   faults.ThrowIfAny();
+}
+
+int BlockSide_px(const DisparityConfig& config) {
+  if (config.block_px > 0) return config.block_px;
+  return config.method == Method::kBm ? kDefaultBmBlock_px : kDefaultSgbmBlock_px;
 }
 
 int SearchedDisparities(const DisparityConfig& config, double nearest_px, int width_px) {

@@ -59,6 +59,9 @@ constexpr int kNoDisparity = -kDisparityScale;
 /// multiple of 16, at most the pictures' width. `config` may state another number.
 int SearchedDisparities(const DisparityConfig& config, double nearest_px, int width_px);
 
+/// Side of the compared blocks: smaller pictures cannot be matched.
+int BlockSide_px(const DisparityConfig& config);
+
 /// OpenCV's matcher with the values of `config`, searching `num_disparities`.
 cv::Ptr<cv::StereoMatcher> MakeMatcher(const DisparityConfig& config, int num_disparities);
 

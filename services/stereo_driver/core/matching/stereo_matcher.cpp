@@ -1,9 +1,15 @@
 #include "services/stereo_driver/core/matching/stereo_matcher.h"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 namespace deixis::stereo_driver {
 namespace {
+
+// Below it OpenCV's matchers find no room for their windows.
+constexpr int kLeastMatched_px = 8;
+// Pixels times disparities: some three seconds of one core.
+constexpr std::int64_t kMostCompared = std::int64_t{1} << 30;
 
 // Half of an odd size is not half as large: the view is the whole one, its scale follows.
 cv::Size MatchedSize(const StereoMatcherConfig& config, cv::Size size) {
@@ -46,6 +52,21 @@ void StereoMatcherConfig::Validate() const {
   faults.Require(farthest_m > nearest_m && farthest_m <= 65.0, "farthest_m",
                  "must lie between nearest_m and 65");
   faults.ThrowIfAny();
+}
+
+std::string MatchingFault(const StereoMatcherConfig& config,
+                          const geometry::StereoCalibration& calibration) {
+  const geometry::CameraCalibration& rectified = calibration.rectified;
+  const cv::Size size = MatchedSize(config, {rectified.width_px, rectified.height_px});
+  const std::string pictures = "pictures of " + std::to_string(rectified.width_px) + "x" +
+                               std::to_string(rectified.height_px) + " are too ";
+  const int least_px = std::max(kLeastMatched_px, BlockSide_px(config.disparity));
+  if (std::min(size.width, size.height) < least_px) return pictures + "small to be matched";
+  const std::int64_t disparities = SearchedBy(config, calibration);
+  if (std::int64_t{size.width} * size.height * disparities <= kMostCompared) return "";
+  return pictures + "large to be matched over " + std::to_string(disparities) +
+         " disparities; set matcher.match_size half, matcher.nearest_m larger, or the cameras to"
+         " smaller pictures";
 }
 
 StereoMatcher::StereoMatcher(const StereoMatcherConfig& config,

@@ -47,6 +47,12 @@ struct RectifiedDepth {
                      ///< of the picture's size or half of it.
 };
 
+/// Why pictures of the calibration's size cannot be matched, with the cure; empty when they can be:
+/// not below OpenCV's windows, nor so many disparities in so many pixels that nothing else would be
+/// heard for seconds.
+std::string MatchingFault(const StereoMatcherConfig& config,
+                          const geometry::StereoCalibration& calibration);
+
 /// From a pair as taken to rectified picture and depth. The steps can be called one by one, to
 /// measure them; Measure does them all.
 class StereoMatcher {

@@ -26,6 +26,7 @@ struct FrameSourceStatus {
   std::int64_t unmatched_left = 0;   ///< Left or colour pictures without a partner in time.
   std::int64_t unmatched_right = 0;  ///< Right or depth pictures without a partner in time.
   std::int64_t unusable = 0;         ///< Pictures that do not make a frame: sizes, odd widths.
+  std::string last_unusable;         ///< Why the last of them did not; empty = by its size.
 };
 
 /// Where frames come from that nobody sends on the bus.

@@ -90,8 +90,11 @@ bool MatchedSource::HasEnded() const {
 }
 
 FrameSourceStatus MatchedSource::status() const {
-  return {Together(left_->status(), right_->status()), matcher_.unmatched_first(),
-          matcher_.unmatched_second(), unusable_};
+  return {Together(left_->status(), right_->status()),
+          matcher_.unmatched_first(),
+          matcher_.unmatched_second(),
+          unusable_,
+          {}};
 }
 
 std::optional<Frame> ComposePair(const Picture& left, const Picture& right) {

@@ -17,7 +17,9 @@ FrameGrab SideBySideSource::Next() {
   return {SourceState::kWaiting, std::nullopt};
 }
 
-FrameSourceStatus SideBySideSource::status() const { return {source_->status(), 0, 0, unusable_}; }
+FrameSourceStatus SideBySideSource::status() const {
+  return {source_->status(), 0, 0, unusable_, {}};
+}
 
 std::optional<Frame> SideBySideSource::Split(const capture::Picture& picture) const {
   const int width = picture.bgr.cols / 2;
