@@ -19,38 +19,15 @@ import lcm
 import numpy as np
 import pytest
 from foxglove_schemas_protobuf.Log_pb2 import Log
-from mcap.reader import make_reader
-from mcap_protobuf.decoder import DecoderFactory
+from mcap_messages import LOG_TIME, UTIME, Opened, log_of, make, xyz
 
 from deixis_frontend.cli import main
 from deixis_frontend.export.mcap_file import McapFile
 from deixis_lcm import images, logs
 
-UTIME = 1_700_000_000_123_456
-LOG_TIME = UTIME + 5_000
 JPEG = b"\xff\xd8 a picture \xff\xd9"
 DEPTH = np.arange(12, dtype=np.uint16).reshape(3, 4) * 500
-Export = Callable[..., "Opened"]
-
-
-class Opened:
-    """The messages of an MCAP file by topic, and their times."""
-
-    def __init__(self, path: Path) -> None:
-        self.messages: dict[str, list[Any]] = {}
-        self.schemas: dict[str, str] = {}
-        self.times: dict[str, tuple[int, int]] = {}
-        with path.open("rb") as file:
-            reader = make_reader(file, decoder_factories=[DecoderFactory()])
-            for schema, channel, message, decoded in reader.iter_decoded_messages():
-                self.messages.setdefault(channel.topic, []).append(decoded)
-                self.schemas[channel.topic] = schema.name
-                self.times[channel.topic] = (message.log_time, message.publish_time)
-
-    def only(self, topic: str) -> Any:
-        """The one message of a topic."""
-        [message] = self.messages[topic]
-        return message
+Export = Callable[..., Opened]
 
 
 @pytest.fixture
@@ -64,26 +41,6 @@ def export(tmp_path: Path) -> Export:
         return Opened(output)
 
     return run
-
-
-def log_of(path: Path, *pairs: tuple[str, Any]) -> Path:
-    with logs.Writer(path) as log:
-        for number, (channel, message) in enumerate(pairs):
-            log.write(LOG_TIME + 1000 * number, channel, message)
-    return path
-
-
-def make(message_type: type, **fields: Any) -> Any:
-    """A message; sets the length of each list that is given, and utime."""
-    message = message_type()
-    if "utime" in message.__slots__:
-        message.utime = UTIME
-    for name, value in fields.items():
-        assert name in message.__slots__
-        setattr(message, name, value)
-        if f"n_{name}" in message.__slots__:
-            setattr(message, f"n_{name}", len(value))
-    return message
 
 
 def transform(translation: tuple[float, float, float] = (1.0, 2.0, 3.0)) -> Any:
@@ -123,10 +80,6 @@ def gesture(**fields: Any) -> Any:
 
 def status(state: int, text: str = "") -> Any:
     return make(deixis.service_status_t, service="hand_tracker", state=state, text=text)
-
-
-def xyz(of: Any) -> tuple[float, float, float]:
-    return of.x, of.y, of.z
 
 
 def xy(points: Any) -> list[tuple[float, float]]:

@@ -9,9 +9,13 @@ from typing import Any
 import bot_core
 import deixis
 import kinect
+import sensor_msgs
+import tf2_msgs
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
-from deixis_frontend.export import annotations, cameras, pictures, sayings, scenes, skeletons
+from deixis_frontend.export import (
+    annotations, cameras, kinect_pictures, pictures, robot_frames, robot_pictures, sayings, scenes,
+    skeletons)
 from deixis_lcm import images
 
 _POSE_CHANNEL = "CAMERA_POSE"  # behind any prefix
@@ -31,6 +35,8 @@ class Converter:
         self._camera = _DEFAULT_CAMERA  # of the last calibration: CAMERA_POSE names none
         self._parent = _DEFAULT_PARENT
         self._posed: set[str] = set()  # cameras whose CAMERA_POSE has come
+        self._in_tree: set[str] = set()  # frames that a robot's transforms have placed
+        self._published: set[str] = set()  # channels that services say are theirs
         self._filled: set[str] = set()  # channels whose scene is not empty
         self._states: dict[tuple[Any, ...], tuple[int, str]] = {}
         self._by_type: dict[type, Callable[[str, Any], Converted]] = {
@@ -48,6 +54,11 @@ class Converter:
             deixis.verified_poses_t: self._verified,
             deixis.service_status_t: self._status,
             kinect.skeleton_msg_t: self._skeleton,
+            kinect.frame_msg_t: self._kinect_frame,
+            sensor_msgs.Image: self._robot_image,
+            sensor_msgs.CompressedImage: self._robot_file,
+            sensor_msgs.CameraInfo: self._robot_lens,
+            tf2_msgs.TFMessage: self._robot_transforms,
         }
 
     def convert(self, channel: str, message: Any) -> Converted:
@@ -59,8 +70,9 @@ class Converter:
         if converted is None:
             self._leave_out(channel, message)
             return
+        topic = channel if channel.startswith("/") else f"/{channel}"
         for what, made in converted(channel, message):
-            yield f"/{channel}/{what}", made
+            yield f"{topic}/{what}", made
 
     def _leave_out(self, channel: str, message: Any) -> None:
         kind = "an unknown type" if message is None else type(message).__name__
@@ -84,8 +96,11 @@ class Converter:
         return names[0] if names else channel
 
     def _camera_pose(self, channel: str, message: Any) -> Converted:
-        if not channel.endswith(_POSE_CHANNEL):
+        if not (channel.endswith(_POSE_CHANNEL) or channel in self._published):
             self._leave_out(channel, message)
+            return
+        if self._camera in self._in_tree:
+            self.left_out[f"poses on {channel} of a camera that transforms place"] += 1
             return
         self._posed.add(self._camera)
         yield "transform", cameras.camera_pose(message, self._parent, self._camera)
@@ -100,7 +115,7 @@ class Converter:
     def _camera_facts(self, message: Any, camera: str, utime: int) -> Converted:
         self._camera, self._parent = camera, message.parent_frame or _DEFAULT_PARENT
         yield "calibration", cameras.calibration(message, camera, utime)
-        if message.has_mount and camera not in self._posed:
+        if message.has_mount and camera not in self._posed | self._in_tree:
             yield "transform", cameras.mount(message, self._parent, camera, utime)
 
     def _hands(self, channel: str, message: Any) -> Converted:
@@ -129,6 +144,32 @@ class Converter:
     def _skeleton(self, _: str, message: Any) -> Converted:
         yield "scene", SceneUpdate(entities=[skeletons.skeleton(message, self._camera)])
 
+    def _kinect_frame(self, channel: str, message: Any) -> Converted:
+        for words in kinect_pictures.unread(message):
+            self.left_out[f"{words} on {channel}"] += 1
+        if kinect_pictures.has_colour(message):
+            yield "image", kinect_pictures.colour(message)
+        if kinect_pictures.has_depth(message):
+            yield "depth", kinect_pictures.depth(message)
+
+    def _robot_image(self, channel: str, message: Any) -> Converted:
+        what = "depth" if robot_pictures.is_depth(message) else "image"
+        yield what, robot_pictures.picture(message, message.header.frame_id or channel)
+
+    def _robot_file(self, channel: str, message: Any) -> Converted:
+        yield "image", robot_pictures.compressed(message, message.header.frame_id or channel)
+
+    def _robot_lens(self, channel: str, message: Any) -> Converted:
+        yield "calibration", robot_frames.lens(message, message.header.frame_id or channel)
+
+    def _robot_transforms(self, channel: str, message: Any) -> Converted:
+        if not message.transforms:
+            self.left_out[f"TFMessage without transforms on {channel}"] += 1
+            return
+        transforms = robot_frames.transforms(message)
+        self._in_tree.update(part.child_frame_id for part in message.transforms)
+        yield "transforms", transforms
+
     def _scene(self, channel: str, message: Any, entities: list[Any]) -> Converted:
         """The scene, and once more when it has become empty."""
         if entities or channel in self._filled:
@@ -144,6 +185,8 @@ class Converter:
             yield "scene", scenes.ray(message, message.frame or self._camera)
 
     def _status(self, _: str, message: Any) -> Converted:
+        self._published.update(channel.name for channel in message.channels
+                               if channel.direction == deixis.channel_status_t.OUT)
         who = (message.service, message.instance, message.host, message.pid)
         if self._states.get(who) != (message.state, message.text):
             self._states[who] = (message.state, message.text)

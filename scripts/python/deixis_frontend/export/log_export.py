@@ -13,6 +13,7 @@ from typing import Any
 from deixis_frontend.errors import UserError
 from deixis_frontend.export.converter import Converter
 from deixis_frontend.export.mcap_file import McapFile
+from deixis_frontend.export.times import utime_of
 from deixis_frontend.output_files import UnfinishedFile
 from deixis_lcm.log_events import Event, EventReader
 from deixis_lcm.logs import decode, types_by_fingerprint
@@ -84,7 +85,7 @@ _LATEST_US = (2**64 - 1) // 1000  # MCAP counts nanoseconds
 
 def _utime(message: Any) -> int:
     """Its time in microseconds; ValueError if it fits into no MCAP file."""
-    utime = int(message.utime)
+    utime = utime_of(message)
     if not 0 <= utime <= _LATEST_US:
         raise ValueError(f"utime {utime} us fits into no MCAP file")
     return utime
