@@ -32,7 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _restart_all(arguments: argparse.Namespace, system: System, client: Client) -> int:
     """With a new supervisor, which reads the system file anew."""
-    status = client.command("status", [])["status"]
+    status = client.own_status()
     if status.get("is_in_foreground"):
         raise UserError(f"the supervisor (pid {status['supervisor_pid']}) is in the foreground:"
                         " restart it where it was started (`systemctl restart deixis`), or name the"
