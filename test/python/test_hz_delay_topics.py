@@ -126,7 +126,7 @@ def test_after_a_pause_there_is_one_table(monkeypatch: pytest.MonkeyPatch,
     def measure(channels: dict[str, ChannelRate], arrival: Arrival, _: object) -> None:
         channels[arrival.channel] = ChannelRate(arrival.channel, 5.0)
 
-    Meter(Decoder(layout.find()), HEADER, measure).listen(Paused())
+    Meter(Decoder(layout.find()), HEADER, measure).listen(Paused(), [])
     assert capsys.readouterr().out.count("channel ") == 1
 
 
