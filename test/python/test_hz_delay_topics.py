@@ -203,6 +203,11 @@ def test_silence_is_no_success(url: str, command: str) -> None:
     assert f"no message from {url}" in line
 
 
+def test_help_of_delay_explains_the_ages_of_gestures() -> None:
+    said = " ".join(deixis(NOWHERE, "delay", "--help").stdout.split())
+    assert "GESTURES is sent twice" in said and "with the utime of the decision" in said
+
+
 def topics(log: Path) -> dict[str, dict[str, object]]:
     result = deixis(NOWHERE, "topics", "--log", log, "--json")
     assert result.returncode == 0, result.stderr

@@ -49,6 +49,21 @@ def test_start_returns_when_all_are_ready(bench: Bench) -> None:
     assert bench.deixis("status").returncode == 3
 
 
+def test_columns_are_in_line_whatever_the_names(bench: Bench) -> None:
+    long_name = "a_service_with_quite_a_long_name"
+    bench.write({"a": {}, long_name: {}})
+    for command, state in (("start", "running"), ("stop", "stopped")):
+        lines = bench.deixis(command).stdout.splitlines()
+        assert [line.index(state) for line in lines] == [len(long_name) + 1] * 2
+
+
+def test_stop_does_not_bring_up_what_is_over(bench: Bench) -> None:
+    bench.write({"a": {"set": {"state": 2, "text": "no light"}}, "b": {"set": {
+        "say": "no camera", "exit_after_s": 0, "exit_code": 2}}})
+    assert "no camera" in bench.deixis("start").stdout
+    assert sorted(bench.deixis("stop").stdout.split()) == ["a", "b", "stopped", "stopped"]
+
+
 def test_degraded_counts_as_ready_and_says_why(bench: Bench) -> None:
     bench.write({"a": {"set": {"state": 2, "text": "no light"}}})
     assert bench.deixis("start").returncode == 0
