@@ -1,5 +1,6 @@
 #include "common/config/config.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -23,6 +24,22 @@ std::string TextOf(const std::vector<Fault>& faults) {
     all += (all.empty() ? "'" : "; '") + fault.key + "' " + fault.text;
   }
   return all;
+}
+
+/// Where a configuration file may be, each place once: DEIXIS_CONFIG_DIR may be one of the shipped
+/// folders, and an absolute name is the same in all of them.
+std::vector<fs::path> PlacesOf(const std::string& name) {
+  std::vector<fs::path> places;
+  const auto add = [&places](const fs::path& place) {
+    const fs::path normal = place.lexically_normal();
+    if (std::find(places.begin(), places.end(), normal) == places.end()) places.push_back(normal);
+  };
+  add(name);
+  if (const char* folder = std::getenv("DEIXIS_CONFIG_DIR")) add(fs::path(folder) / name);
+  const fs::path program = ProgramFolder();
+  add(program / "../share/deixis/config" / name);
+  add(program / "../../../config" / name);  // <source>/build/<preset>/bin
+  return places;
 }
 
 }  // namespace
@@ -184,17 +201,11 @@ Reader OpenFile(const fs::path& path, const std::vector<std::string>& overrides,
 
 fs::path FindConfig(const std::string& name) {
   if (name.empty()) throw ConfigError("the name of a configuration file is empty; give one");
-  std::vector<fs::path> places{name};
-  if (const char* folder = std::getenv("DEIXIS_CONFIG_DIR"))
-    places.push_back(fs::path(folder) / name);
-  const fs::path program = ProgramFolder();
-  places.push_back(program / "../share/deixis/config" / name);
-  places.push_back(program / "../../../config" / name);  // <source>/build/<preset>/bin
   std::string searched;
-  for (const fs::path& place : places) {
+  for (const fs::path& place : PlacesOf(name)) {
     std::error_code ignored;
-    if (fs::is_regular_file(place, ignored)) return place.lexically_normal();
-    const std::string tried = place.lexically_normal().string();
+    const std::string tried = place.string();
+    if (fs::is_regular_file(place, ignored)) return place;
     if (fs::exists(place, ignored)) throw ConfigError("'" + tried + "' is not a file; give one");
     searched += (searched.empty() ? "" : ", ") + tried;
   }

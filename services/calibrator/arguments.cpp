@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "common/program/command_line.h"
@@ -227,8 +228,9 @@ void ReadTexts(const Texts& texts, Arguments& arguments) {
 ParsedArguments ParseArguments(int argc, const char* const* argv) {
   ParsedArguments parsed;
   Texts texts;
+  // `deixis calibrate` runs this program under its own name: that is what people have to type.
   CLI::App app("Calibrates one camera, or two, from a chessboard or a ChArUco board.",
-               "deixis-calibrator");
+               std::filesystem::path(argv[0]).filename().string());
   app.set_version_flag("--version", "deixis-calibrator " DEIXIS_VERSION);
   app.require_subcommand(1);
   AddCamera(app, parsed.arguments, texts);

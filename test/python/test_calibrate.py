@@ -123,10 +123,16 @@ def test_wrong_usage_ends_with_two(arguments: tuple[str, ...]) -> None:
     assert calibrate(*arguments).returncode == 2
 
 
+def test_what_is_missing_is_named_without_what_is_not_there() -> None:
+    [*_, said] = calibrate().stderr.splitlines()
+    assert said.endswith("the following arguments are required: {camera,stereo,board}")
+
+
 def test_help_of_a_part_is_the_programs() -> None:
     done = calibrate("stereo", "--help")
     assert done.returncode == 0
     assert "--side-by-side" in done.stdout
+    assert "Usage: deixis calibrate stereo " in done.stdout
 
 
 def test_ctrl_c_ends_the_collecting(url: str, tmp_path: Path) -> None:

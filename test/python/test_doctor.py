@@ -19,6 +19,7 @@ from deixis import hand_tracks_t, objects_t
 from front_end import deixis, speaking, status
 
 from deixis_frontend import layout, lcm_url
+from deixis_frontend.commands import doctor as doctor_command
 from deixis_frontend.doctor import firewall, fixing, installation, machine, network, services
 from deixis_frontend.doctor.command_lines import CommandLines
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding, examine
@@ -58,7 +59,21 @@ def test_every_finding_is_a_line(bench: Bench) -> None:
     bench.write({"one": {}})
     *findings, total = bench.deixis("doctor", "--seconds", "0.2").stdout.splitlines()
     assert all(line.split()[0] in (OK, WARNING, PROBLEM) for line in findings)
-    assert total.endswith(" problems")
+    levels = [line.split()[0] for line in findings]
+    counts = [(word, levels.count(word)) for word in (WARNING, PROBLEM)]
+    assert total == f"{levels.count(OK)} ok, " + ", ".join(
+        f"{count} {word}" + "s" * (count != 1) for word, count in counts)
+
+
+@pytest.mark.parametrize(("problems", "words"), [(0, "0 problems"), (1, "1 problem"),
+                                                 (2, "2 problems")])
+def test_one_problem_is_no_plural(capsys: pytest.CaptureFixture[str], problems: int,
+                                  words: str) -> None:
+    report = doctor_command._Report(is_quiet=False)
+    for _ in range(problems):
+        report.add(Finding(PROBLEM, "x", "is wrong"))
+    report.conclude(lcm_url.parse("udpm://"))
+    assert capsys.readouterr().out.endswith(f"0 ok, 0 warnings, {words}\n")
 
 
 def test_a_system_on_another_bus_is_pointed_at(bench: Bench) -> None:

@@ -10,8 +10,10 @@ import math
 import signal
 import socket
 import threading
+from collections.abc import Iterator
 from pathlib import Path
 
+import lcm
 import pytest
 import yaml
 from deixis import hand_t, hand_tracks_t
@@ -19,7 +21,9 @@ from deixis_lcm import decoding, images
 from front_end import deixis, deixis_beside, speaking, status, write_log
 from test_types import STRUCTS, Filler
 
-from deixis_frontend.listening import fields, text_forms
+from deixis_frontend import lcm_url
+from deixis_frontend.listening import fields, source, text_forms
+from deixis_frontend.listening.source import Arrival
 
 NOWHERE = "memq://"  # a log is read without a bus
 
@@ -130,6 +134,30 @@ def test_an_unknown_type_is_said_once_and_counted(log: Path) -> None:
     assert "printed 1 messages; not printed: 2 of unknown type on FOREIGN" in result.stderr
 
 
+@pytest.mark.parametrize("command", ["echo", "hz", "delay", "topics"])
+def test_the_self_test_of_lcm_is_left_out_in_silence(tmp_path: Path, command: str) -> None:
+    log = write_log(tmp_path / "x.lcmlog", [(0, "LCM_SELF_TEST", b"lcm self test"),
+                                            (0, "HANDS", tracks().encode()),
+                                            (1, "LCM_SELF_TEST", b"lcm self test")])
+    result = deixis(NOWHERE, command, "--log", log)
+    assert result.returncode == 0 and "HANDS" in result.stdout
+    assert "SELF_TEST" not in result.stdout and not result.stderr
+
+
+def test_other_bytes_on_the_channel_of_the_self_test_are_told(tmp_path: Path) -> None:
+    log = write_log(tmp_path / "x.lcmlog", [(0, "LCM_SELF_TEST", b"of somebody else")])
+    assert "LCM_SELF_TEST: type not known" in deixis(NOWHERE, "echo", "--log", log).stderr
+
+
+def test_programs_that_start_are_not_heard(url: str) -> None:
+    with deixis_beside(url, "echo", "--json", "--count", 1) as echo:
+        with speaking(url, lambda n: ("LATER", tracks(n).encode()) if n > 50 else
+                      ("LCM_SELF_TEST", b"lcm self test")):
+            lcm.LCM(url)
+            out, said = echo.communicate(timeout=30)
+    assert json.loads(out)["channel"] == "LATER" and not said
+
+
 def test_damaged_messages_are_counted_by_reason(log: Path) -> None:
     result = deixis(NOWHERE, "echo", "--log", log, "BAD")
     assert result.returncode == 1 and not result.stdout
@@ -189,6 +217,32 @@ def test_a_channel_that_is_not_there_is_told(log: Path) -> None:
     result = deixis(NOWHERE, "echo", "--log", log, "HAND")  # The whole name must fit.
     assert result.returncode == 1
     assert "no message on HAND" in result.stderr and "deixis topics --log" in result.stderr
+
+
+@pytest.mark.parametrize("command", [("echo", "--count", 1), ("hz",), ("delay",)])
+def test_a_silent_bus_is_told_once_while_it_waits(url: str, command: tuple[object, ...]) -> None:
+    with deixis_beside(url, *command, "HANDS", "OBJECTS", "--seconds", 4.5) as waiting:
+        assert waiting.stderr
+        assert waiting.stderr.readline() == (f"deixis: no message on HANDS, OBJECTS from {url} yet:"
+                                             " `deixis topics` lists what is spoken there\n")
+        assert waiting.poll() is None
+        _, said = waiting.communicate(timeout=30)
+    assert said.count("no message") == 1 and "yet" not in said  # The last word of all.
+
+
+def test_a_bus_that_speaks_late_is_told_and_heard(
+        monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    class Late:
+        """A bus that is silent, speaks, and is silent again."""
+
+        name, url = "bus", lcm_url.parse("udpm://")
+
+        def __iter__(self) -> Iterator[Arrival | None]:
+            yield from (None, None, Arrival(0, "A", b""), None, None)
+
+    monkeypatch.setattr(source, "_SILENT_S", 0.0)
+    assert sum(arrival is not None for arrival in source.telling_silence(Late(), [])) == 1
+    assert capsys.readouterr().err.count("no message from bus yet") == 1
 
 
 def test_live_messages_are_printed_as_they_come(url: str) -> None:

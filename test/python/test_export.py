@@ -400,6 +400,16 @@ def test_what_is_no_log_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture
     assert not list(tmp_path.glob("out*"))
 
 
+def test_the_self_test_of_lcm_is_left_out_in_silence(tmp_path: Path,
+                                                     capsys: pytest.CaptureFixture[str]) -> None:
+    log = log_of(tmp_path / "in.lcmlog", ("LCM_SELF_TEST", b"lcm self test"),
+                 ("SERVICE_STATUS", status(1)))
+    assert main(["export", str(log), "--mcap", str(tmp_path / "out.mcap")]) == 0
+    assert main(["export", str(log), "--mcap", str(tmp_path / "no.mcap"), "--channels", "NO"]) == 1
+    said = capsys.readouterr()
+    assert "left out" not in said.out and "SELF_TEST" not in said.out + said.err
+
+
 def test_a_log_with_nothing_to_show_is_no_success(tmp_path: Path,
                                                   capsys: pytest.CaptureFixture[str]) -> None:
     log = log_of(tmp_path / "in.lcmlog", ("OTHER", b"unknown type"))

@@ -126,7 +126,7 @@ def test_after_a_pause_there_is_one_table(monkeypatch: pytest.MonkeyPatch,
     def measure(channels: dict[str, ChannelRate], arrival: Arrival, _: object) -> None:
         channels[arrival.channel] = ChannelRate(arrival.channel, 5.0)
 
-    Meter(Decoder(layout.find()), HEADER, measure).listen(Paused())
+    Meter(Decoder(layout.find()), HEADER, measure).listen(Paused(), [])
     assert capsys.readouterr().out.count("channel ") == 1
 
 
@@ -201,6 +201,11 @@ def test_silence_is_no_success(url: str, command: str) -> None:
     assert result.returncode == 1
     [line] = result.stderr.splitlines()
     assert f"no message from {url}" in line
+
+
+def test_help_of_delay_explains_the_ages_of_gestures() -> None:
+    said = " ".join(deixis(NOWHERE, "delay", "--help").stdout.split())
+    assert "GESTURES is sent twice" in said and "with the utime of the decision" in said
 
 
 def topics(log: Path) -> dict[str, dict[str, object]]:

@@ -8,8 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from front_end import status
 
-from deixis_frontend import layout, lcm_url
+from deixis_frontend import layout, lcm_url, service_facts
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import live
 from deixis_frontend.evaluation.live import CONSUMERS, camera_feed, stereo_feed
@@ -43,6 +44,22 @@ def test_what_a_folder_lacks_is_named(tmp_path: Path, missing: str) -> None:
             (tmp_path / part).touch()
     with pytest.raises(UserError, match=f"lacks {missing}"):
         stereo_feed(tmp_path, 30.0)
+
+
+@pytest.mark.parametrize(("pictures", "is_behind"), [(502, True), (581, True), (582, False),
+                                                     (603, False)])
+def test_a_source_that_falls_behind_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str],
+                                            pictures: int, is_behind: bool) -> None:
+    facts = service_facts.as_facts(status("any"))
+    services = {name: live._figures(facts, name, 50.0, None, pictures)
+                for name in (*CONSUMERS, "camera_driver")}
+    clip = tmp_path / "clip.mp4"
+    clip.touch()
+    result = live._result(services, camera_feed(clip, 30.0), 30.0, 20.0)
+    live._print(result)
+    assert (result["pictures_wanted"], result["source_fell_behind"]) == (600, is_behind)
+    said = f"{pictures} of 600 pictures: the machine is too slow for 30 Hz; ages grow with it\n"
+    assert (said in capsys.readouterr().out) == is_behind
 
 
 def test_figures_of_a_service_that_has_died_are_none(url: str, tmp_path: Path) -> None:

@@ -49,6 +49,21 @@ def test_start_returns_when_all_are_ready(bench: Bench) -> None:
     assert bench.deixis("status").returncode == 3
 
 
+def test_columns_are_in_line_whatever_the_names(bench: Bench) -> None:
+    long_name = "a_service_with_quite_a_long_name"
+    bench.write({"a": {}, long_name: {}})
+    for command, state in (("start", "running"), ("stop", "stopped")):
+        lines = bench.deixis(command).stdout.splitlines()
+        assert [line.index(state) for line in lines] == [len(long_name) + 1] * 2
+
+
+def test_stop_does_not_bring_up_what_is_over(bench: Bench) -> None:
+    bench.write({"a": {"set": {"state": 2, "text": "no light"}}, "b": {"set": {
+        "say": "no camera", "exit_after_s": 0, "exit_code": 2}}})
+    assert "no camera" in bench.deixis("start").stdout
+    assert sorted(bench.deixis("stop").stdout.split()) == ["a", "b", "stopped", "stopped"]
+
+
 def test_degraded_counts_as_ready_and_says_why(bench: Bench) -> None:
     bench.write({"a": {"set": {"state": 2, "text": "no light"}}})
     assert bench.deixis("start").returncode == 0
@@ -209,7 +224,8 @@ def test_a_supervisor_that_does_not_end_is_told(
             return True
 
         def command(self, command: str, *_: object) -> dict[str, Any]:
-            return {"ok": True, "stopped": ["a"], "status": {"lcm_url": bench.url}}
+            return {"ok": True, "stopped": ["a"], "status": {
+                "lcm_url": bench.url, "file": str(bench.system_file.resolve())}}
 
         def wait_until_gone(self, seconds: float = 10.0) -> bool:
             return False
@@ -249,14 +265,54 @@ def test_two_starts_at_once_make_one_supervisor(bench: Bench) -> None:
     assert bench.log("a").count("started, pid") == 1
 
 
-def test_a_second_system_of_the_same_name_is_refused(bench: Bench) -> None:
+@pytest.mark.parametrize("command", [("start",), ("start", "--foreground"), ("stop",),
+                                     ("stop", "a"), ("restart",), ("restart", "a")])
+def test_a_system_that_was_started_from_another_file_is_left_alone(
+        bench: Bench, command: tuple[str, ...]) -> None:
+    bench.write({"a": {}})
+    bench.deixis("start")
+    before = bench.service("a")["pid"]
+    first, bench.system_file = bench.system_file, bench.folder / "other.yaml"
+    bench.write({"a": {}})
+    refused = bench.deixis(*command)
+    assert refused.returncode == 1
+    assert refused.stderr == (f"deixis: the running system 'bench' was started from {first}:"
+                              f" use --system {first}, or give one of them another name\n")
+    assert bench.service("a")["pid"] == before and is_alive(before)
+
+
+def test_status_says_when_another_file_is_meant(bench: Bench) -> None:
+    bench.write({"a": {}})
+    bench.deixis("start")
+    assert bench.deixis("status").stdout.startswith("bench on ")
+    first, bench.system_file = bench.system_file, bench.folder / "other.yaml"
+    bench.write({"a": {}})
+    shown = bench.deixis("status")
+    assert shown.returncode == 0
+    assert shown.stdout.startswith(f"bench from {first} on ")
+
+
+def test_a_system_whose_file_is_gone_can_be_stopped_by_its_pid(bench: Bench) -> None:
     bench.write({"a": {}})
     bench.deixis("start")
     bench.system_file = bench.system_file.rename(bench.folder / "other.yaml")
-    bench.write({"a": {}})
-    refused = bench.deixis("start")
+    refused = bench.deixis("stop")
     assert refused.returncode == 1
-    assert "runs already, from" in refused.stderr and "another 'name'" in refused.stderr
+    assert f"there no more: `kill {supervisor_pid(bench)}` stops it" in refused.stderr
+
+
+def test_the_supervisors_log_tells_who_stopped_it(bench: Bench) -> None:
+    bench.write({"a": {}})
+    bench.deixis("start")
+    pid = supervisor_pid(bench)
+    stopping = bench.begin("stop")
+    stopping.communicate(timeout=30)
+    assert becomes_true(lambda: "ended" in bench.log("supervisor"))
+    started, _, asked, ended = bench.log("supervisor").splitlines()
+    assert f"supervisor: started, pid {pid}, from {bench.system_file}, on " in started
+    assert "supervisor: asked to stop everything by" in asked
+    assert f" pid {stopping.pid}, system file {bench.system_file}" in asked
+    assert ended.endswith("supervisor: ended")
 
 
 def test_services_end_when_the_supervisor_is_killed(bench: Bench, tmp_path: Path) -> None:

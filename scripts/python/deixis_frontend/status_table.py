@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from deixis_frontend import text_table
@@ -12,10 +13,14 @@ _ALL_CHANNELS = "*"  # as the C++ services name what cannot be told by channel
 _LEFT = 2  # columns that are flush left
 
 
-def render(status: dict[str, Any]) -> str:
-    """The table, and below it a line for everything that needs words."""
+def render(status: dict[str, Any], own_file: Path) -> str:
+    """The table, and below it a line for everything that needs words.
+
+    A system that was started from another file than `own_file` is told by its file.
+    """
     rows = [_HEADER, *(_row(service) for service in status["services"])]
-    lines = [f"{status['system']} on {status['lcm_url']}, supervisor pid"
+    origin = "" if status["file"] == str(own_file) else f" from {status['file']}"
+    lines = [f"{status['system']}{origin} on {status['lcm_url']}, supervisor pid"
              f" {status['supervisor_pid']}, up {duration(status['uptime_s'])}"]
     lines += text_table.lines(rows, _LEFT)
     lines += [status["trouble"]] if status.get("trouble") else []

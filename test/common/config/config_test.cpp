@@ -9,6 +9,7 @@ namespace {
 
 using testing::AllOf;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -244,6 +245,12 @@ TEST_F(Config, SaysWhereAMissingConfigurationWasSearched) {
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("no_such.yaml"), HasSubstr("searched")));
   }
+}
+
+TEST_F(Config, SaysEachPlaceThatWasSearchedOnce) {
+  const std::string path = (folder_.path() / "no_such.yaml").string();  // So in every folder.
+  EXPECT_THAT([&] { FindConfig(path); },
+              ThrowsMessage<ConfigError>(EndsWith("not found; searched: " + path)));
 }
 
 }  // namespace

@@ -47,6 +47,19 @@ TEST(CalibratorArguments, ToReplaceIsNotToAcceptPoorResults) {
   EXPECT_TRUE(permissions("--accept-poor").may_write_poor);
 }
 
+TEST(CalibratorArguments, HelpTellsTheCommandAsItWasCalled) {
+  for (const auto& [called, shown] :
+       {std::pair{"deixis calibrate", "deixis calibrate"},
+        std::pair{"build/bin/deixis-calibrator", "deixis-calibrator"}}) {
+    const std::vector<const char*> words{called, "camera", "--help"};
+    ::testing::internal::CaptureStdout();
+    EXPECT_EQ(ParseArguments(static_cast<int>(words.size()), words.data()).exit_code, 0);
+    EXPECT_NE(
+        ::testing::internal::GetCapturedStdout().find(std::string("Usage: ") + shown + " camera "),
+        std::string::npos);
+  }
+}
+
 class WrongCalibratorArguments : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(WrongCalibratorArguments, EndWithTwo) {

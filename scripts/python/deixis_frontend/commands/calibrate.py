@@ -15,9 +15,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What to calibrate; the rest is deixis-calibrator's."""
     parser.usage = "deixis calibrate [-h] {camera,stereo,board} ..."
     parser.epilog = "`deixis calibrate camera --help` lists the options; the same for the others."
-    parser.add_argument("what", choices=_WHAT,
+    parser.add_argument("what", choices=_WHAT, metavar="{" + ",".join(_WHAT) + "}",
                         help="one camera, two cameras side by side, or a board to print")
-    parser.add_argument("options", nargs=argparse.REMAINDER, help=argparse.SUPPRESS)
+    rest = parser.add_argument("options", nargs=argparse.REMAINDER, help=argparse.SUPPRESS)
+    rest.required = False  # argparse would name it among what is missing.
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -28,4 +29,5 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.lcm_url is not None and arguments.what != "board":
         options += ["--lcm-url", arguments.lcm_url]
     sys.stdout.flush()
-    os.execve(program, [program, arguments.what, *options], layout.environment())
+    # Its --help calls itself by the name that it is given.
+    os.execve(program, ["deixis calibrate", arguments.what, *options], layout.environment())

@@ -9,7 +9,12 @@ from deixis_frontend.listening import meter
 from deixis_frontend.listening.ages import HEADER, ChannelAge
 from deixis_frontend.listening.source import Arrival
 
-add_arguments = meter.add_arguments
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """As of `hz`."""
+    meter.add_arguments(parser)
+    parser.epilog = ("GESTURES is sent twice, when a gesture is decided and when it ends, both with"
+                     " the utime of the decision: the second one's age grows with the gesture's length.")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -87,7 +87,12 @@ class _Report:
                               "findings": [finding.facts() for finding in self._findings]},
                              indent=2))
         else:
-            print(f"{self.count(OK)} ok, {warnings} warnings, {problems} problems")
+            print(f"{self.count(OK)} ok, {_counted(warnings, WARNING)},"
+                  f" {_counted(problems, PROBLEM)}")
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def _examine_network(report: _Report, commands: CommandLines,

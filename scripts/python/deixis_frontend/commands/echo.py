@@ -57,7 +57,7 @@ class _Printer:
 
     def print_all(self, messages: Source) -> None:
         """Until there are enough, or no more."""
-        for arrival in messages:
+        for arrival in source.telling_silence(messages, self._arguments.channels):
             if arrival is None:
                 continue
             self.arrived += 1

@@ -7,7 +7,7 @@ import argparse
 from deixis_frontend import lcm_url
 from deixis_frontend.commands import start
 from deixis_frontend.commands.system_option import (
-    add_names, add_system, has_ended, open_system, print_service)
+    add_names, add_system, has_ended, open_system, service_printer)
 from deixis_frontend.errors import UserError
 from deixis_frontend.supervision.control_client import Client
 from deixis_frontend.supervision.system_file import System
@@ -24,15 +24,15 @@ def run(arguments: argparse.Namespace) -> int:
     system, client = open_system(arguments)
     system.resolve(arguments.names)
     if not client.is_supervised():
-        return start.leave_behind(client, arguments)
+        return start.leave_behind(system, client, arguments)
     if arguments.names:
-        return 0 if client.command("restart", arguments.names, print_service)["ok"] else 1
+        return 0 if client.command("restart", arguments.names, service_printer(system))["ok"] else 1
     return _restart_all(arguments, system, client)
 
 
 def _restart_all(arguments: argparse.Namespace, system: System, client: Client) -> int:
     """With a new supervisor, which reads the system file anew."""
-    status = client.command("status", [])["status"]
+    status = client.own_status()
     if status.get("is_in_foreground"):
         raise UserError(f"the supervisor (pid {status['supervisor_pid']}) is in the foreground:"
                         " restart it where it was started (`systemctl restart deixis`), or name the"
@@ -45,7 +45,7 @@ def _restart_all(arguments: argparse.Namespace, system: System, client: Client) 
     if running and not arguments.names:
         return 0  # Without names, `start` would take what the file starts by default.
     arguments.lcm_url = str(lcm_url.parse(arguments.lcm_url or url))
-    return start.leave_behind(client, arguments)
+    return start.leave_behind(system, client, arguments)
 
 
 def _still_there(running: list[str], system: System) -> list[str]:

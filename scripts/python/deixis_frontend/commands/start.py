@@ -9,7 +9,7 @@ from dataclasses import replace
 from deixis_frontend import layout as layouts
 from deixis_frontend import lcm_url
 from deixis_frontend.commands.system_option import (
-    add_names, add_system, open_system, print_service)
+    add_names, add_system, open_system, service_printer)
 from deixis_frontend.supervision import daemon
 from deixis_frontend.supervision.control_client import Client
 from deixis_frontend.supervision.foreground import Foreground
@@ -31,14 +31,14 @@ def run(arguments: argparse.Namespace) -> int:
     system.resolve(arguments.names)  # A wrong name must not start a supervisor.
     if arguments.foreground:
         return _stay(system, arguments)
-    return leave_behind(client, arguments)
+    return leave_behind(system, client, arguments)
 
 
-def leave_behind(client: Client, arguments: argparse.Namespace) -> int:
+def leave_behind(system: System, client: Client, arguments: argparse.Namespace) -> int:
     """Starts services below a supervisor that stays in the background; 0 when all got ready."""
     client.ensure_supervisor(lcm_url.choose(arguments.lcm_url),
                              url_is_wanted=bool(arguments.lcm_url))
-    answer = client.command("start", arguments.names, print_service)
+    answer = client.command("start", arguments.names, service_printer(system))
     if not answer["ok"]:
         print(f"deixis: not all services are ready: `deixis log` shows what they wrote"
               f" ({client.log_file.parent})", file=sys.stderr)
@@ -50,7 +50,7 @@ def _stay(system: System, arguments: argparse.Namespace) -> int:
     url = lcm_url.choose(arguments.lcm_url)
     lcm_url.require_bus(url)
     layout.use_types()
-    foreground = Foreground(arguments.names, print_service)
+    foreground = Foreground(arguments.names, service_printer(system))
     daemon.supervise(replace(system, path=system.path.resolve()), layout, url,
                      foreground=foreground)
     return foreground.exit_code

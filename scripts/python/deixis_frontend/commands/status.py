@@ -26,7 +26,7 @@ def run(arguments: argparse.Namespace) -> int:
         print(json.dumps(nothing) if arguments.json else "nothing is running")
         return NOT_RUNNING
     status = client.command("status", [])["status"]
-    print(json.dumps(status, indent=2) if arguments.json else render(status))
+    print(json.dumps(status, indent=2) if arguments.json else render(status, system.path.resolve()))
     return 0 if _is_well(status) else 1
 
 

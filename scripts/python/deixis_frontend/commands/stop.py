@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from deixis_frontend.commands.system_option import (
-    add_names, add_system, has_ended, open_system, print_service)
+    add_names, add_system, has_ended, open_system, service_printer)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -21,5 +21,5 @@ def run(arguments: argparse.Namespace) -> int:
     if not client.is_supervised():
         print("nothing is running")
         return 0
-    client.command("stop", arguments.names, print_service)
+    client.command("stop", arguments.names, service_printer(system))
     return 0 if arguments.names or has_ended(client) else 1

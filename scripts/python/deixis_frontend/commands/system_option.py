@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -41,9 +42,15 @@ def has_ended(client: Client) -> bool:
     return False
 
 
-def print_service(facts: dict[str, Any]) -> None:
-    """One line on a service that has got ready, failed or stopped."""
-    pid = f"pid {facts['pid']}" if facts["pid"] else ""
-    words = facts["last_error"] or facts.get("text", "")
-    print(f"{facts['name']:<22} {facts['state']:<10} {pid:<12} {words}".rstrip(),
-          flush=True)
+def service_printer(system: System) -> Callable[[dict[str, Any]], None]:
+    """Prints a line on each service of the system that has got ready, failed or stopped."""
+    width = max(map(len, system.services), default=0)
+
+    def print_service(facts: dict[str, Any]) -> None:
+        pid = f"pid {facts['pid']}" if facts["pid"] else ""
+        # Of one that was stopped, what it said before is over.
+        words = "" if facts["state"] == "stopped" else facts["last_error"] or facts.get("text", "")
+        print(f"{facts['name']:<{width}} {facts['state']:<10} {pid:<12} {words}".rstrip(),
+              flush=True)
+
+    return print_service

@@ -8,7 +8,7 @@ import time
 from typing import Any
 
 from deixis_frontend.bus import open_bus
-from deixis_frontend.commands.system_option import print_service
+from deixis_frontend.commands.system_option import service_printer
 from deixis_frontend.demo.clip import Clip
 from deixis_frontend.demo.commentary import Commentary
 from deixis_frontend.demo.stage import Stage
@@ -26,7 +26,8 @@ def play(clip: Clip, stage: Stage, commentary: Commentary, url: LcmUrl) -> None:
     """Starts the services, comments until the clip or the time is over, stops the services."""
     path = stage.folder / "system.yaml"
     path.write_text(json.dumps(_system(clip, stage), indent=2), encoding="utf-8")
-    client = Client(system_file.load(path), stage.layout)
+    system = system_file.load(path)
+    client = Client(system, stage.layout)
     bus = open_bus(url)
     print(f"on the bus {url}: print_gestures.py listens there with LCM_DEFAULT_URL='{url}'",
           flush=True)
@@ -36,7 +37,7 @@ def play(clip: Clip, stage: Stage, commentary: Commentary, url: LcmUrl) -> None:
         subscription.set_queue_capacity(1000)
     client.ensure_supervisor(url, url_is_wanted=True, while_pid=os.getpid())
     try:
-        if not client.command("start", [], print_service)["ok"]:
+        if not client.command("start", [], service_printer(system))["ok"]:
             raise UserError(f"not all services are ready: see the logs in {stage.folder / 'logs'}")
         _watch(bus, client, commentary)
     finally:

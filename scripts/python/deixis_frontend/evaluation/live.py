@@ -32,6 +32,7 @@ CONSUMERS = ("object_detector", "hand_tracker", "gesture_recogniser")
 START_UP_LIMIT_S = 20.0
 # Time for the last picture's results and for the status that counts them (sent once per second).
 SETTLING_S = 2.5
+LEAST_SHARE = 0.97  # of the pictures that were asked for; with fewer the source fell behind
 
 
 @dataclass(frozen=True)
@@ -97,12 +98,20 @@ def run(arguments: argparse.Namespace) -> int:
             services = chain.measure(arguments.seconds)
         finally:
             chain.stop()
-    result = {"summary": services, "lost": services["gesture_recogniser"]["lost"],
-              "pictures": services[feed.driver]["pictures"], "rate_hz": arguments.rate,
-              "seconds": arguments.seconds, "clip": feed.name}
+    result = _result(services, feed, arguments.rate, arguments.seconds)
     _print(result)
     report_options.write_json(arguments, result)
     return 0
+
+
+def _result(services: dict[str, dict[str, Any]], feed: Feed, rate_hz: float,
+            seconds: float) -> dict[str, Any]:
+    """The figures of all services, and whether as many pictures came as were asked for."""
+    pictures, wanted = services[feed.driver]["pictures"], round(rate_hz * seconds)
+    return {"summary": services, "lost": services["gesture_recogniser"]["lost"],
+            "pictures": pictures, "pictures_wanted": wanted,
+            "source_fell_behind": pictures < LEAST_SHARE * wanted, "rate_hz": rate_hz,
+            "seconds": seconds, "clip": feed.name}
 
 
 class _Chain:
@@ -237,6 +246,9 @@ def _figures(facts: dict[str, Any], service: str, cpu_percent: float, memory: in
 def _print(result: dict[str, Any]) -> None:
     print(f"{result['clip']} at {result['rate_hz']:g} Hz for {result['seconds']:g} s:"
           f" {result['pictures']} pictures, {result['lost']} without a gesture state")
+    if result["source_fell_behind"]:
+        print(f"{result['pictures']} of {result['pictures_wanted']} pictures: the machine is too slow"
+              f" for {result['rate_hz']:g} Hz; ages grow with it")
     print(f"{'service':<20}{'lost':>6}{'skipped':>9}{'age p50':>9}{'p99 ms':>8}"
           f"{'work p50':>10}{'p99 ms':>8}{'CPU %':>7}{'MB':>6}")
     for name, row in result["summary"].items():

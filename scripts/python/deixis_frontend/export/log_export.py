@@ -15,6 +15,8 @@ from deixis_frontend.export.converter import Converter
 from deixis_frontend.export.mcap_file import McapFile
 from deixis_frontend.export.times import utime_of
 from deixis_frontend.output_files import UnfinishedFile
+from deixis_frontend.self_test import CHANNELS as SELF_TEST_CHANNELS
+from deixis_frontend.self_test import is_self_test
 from deixis_lcm.log_events import Event, EventReader
 from deixis_lcm.logs import decode, types_by_fingerprint
 
@@ -57,16 +59,24 @@ class _Export:
 
     def run(self, channels: re.Pattern[str], progress: Progress) -> Exported:
         for event in self._events:
-            if channels.fullmatch(event.channel):
-                self._done.read += 1
-                self._take(event)
-            else:
-                self._done.other_channels.add(event.channel)
+            if not self._is_self_test(event):
+                self._count_and_take(event, channels)
             progress(event.end)
         self._file.finish()
         self._done.written = self._file.messages
         self._done.damage = self._events.damage()
         return self._done
+
+    def _is_self_test(self, event: Event) -> bool:
+        return (event.channel in SELF_TEST_CHANNELS  # First: most data need not be read for it.
+                and is_self_test(event.channel, self._events.data(event)))
+
+    def _count_and_take(self, event: Event, channels: re.Pattern[str]) -> None:
+        if channels.fullmatch(event.channel):
+            self._done.read += 1
+            self._take(event)
+        else:
+            self._done.other_channels.add(event.channel)
 
     def _take(self, event: Event) -> None:
         try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import signal
 import time
 from collections.abc import Callable
@@ -47,7 +48,7 @@ def run(arguments: argparse.Namespace, header: tuple[str, ...], measure: Measure
     end_as_by_ctrl_c(signal.SIGTERM, signal.SIGHUP)
     try:
         with suppress(KeyboardInterrupt):
-            meter.listen(messages)
+            meter.listen(messages, arguments.channels)
     finally:
         meter.conclude(messages)
     if not meter.has_heard:
@@ -68,10 +69,10 @@ class Meter:
         self.channels: dict[str, Channel] = {}
         self.has_heard = False
 
-    def listen(self, messages: Source) -> None:
+    def listen(self, messages: Source, channels: list[re.Pattern[str]]) -> None:
         """Until there are no more; a table per second when they come live."""
         next_table = time.monotonic() + _TABLE_EVERY_S
-        for arrival in messages:
+        for arrival in source.telling_silence(messages, channels):
             if arrival is not None:
                 self._take(arrival)
             elif messages.url and time.monotonic() >= next_table:

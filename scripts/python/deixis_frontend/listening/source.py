@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import re
 import select
 import sys
@@ -21,10 +22,12 @@ from deixis_frontend.lcm_tools import require_log
 from deixis_frontend.lcm_url import LcmUrl
 from deixis_frontend.number_options import above_zero
 from deixis_frontend.printable import printable
+from deixis_frontend.self_test import is_self_test
 from deixis_lcm.log_events import EventReader
 
 _TICK_S = 0.1
 _QUEUE = 500  # messages that wait while the tool is busy; LCM drops what is more
+_SILENT_S = 3.0  # without a message for so long, people wonder
 MOST_CHANNELS = 1000  # more than any robot has: noise is not to fill the memory
 OTHER_CHANNELS = "(other channels)"
 
@@ -55,7 +58,10 @@ class ChannelNames:
 
 
 class Source(Protocol):
-    """Yields what arrives, and None now and then, so that whoever listens can do other things."""
+    """Yields what arrives, and None now and then, so that whoever listens can do other things.
+
+    LCM's self tests are left out.
+    """
 
     name: str
     url: LcmUrl | None  # of a log: None
@@ -120,7 +126,8 @@ class Live:
             raise UserError(f"the connection to '{self.name}' is lost") from None
 
     def _take(self, channel: str, data: bytes) -> None:
-        if self._channels.fullmatch(channel):  # LCM's expressions are of another dialect.
+        # LCM's expressions are of another dialect.
+        if self._channels.fullmatch(channel) and not is_self_test(channel, data):
             arrived_us = time.time_ns() // 1000
             self._waiting.append(Arrival(arrived_us, self._names.shown(channel), data))
 
@@ -144,16 +151,31 @@ class Log:
                 begin_us = event.time_us if begin_us is None else begin_us
                 if self._length_us is not None and event.time_us - begin_us > self._length_us:
                     break
-                if self._channels.fullmatch(event.channel):
-                    yield Arrival(event.time_us, self._names.shown(event.channel),
-                                  events.data(event))
+                if not self._channels.fullmatch(event.channel):
+                    continue
+                data = events.data(event)
+                if not is_self_test(event.channel, data):
+                    yield Arrival(event.time_us, self._names.shown(event.channel), data)
             if events.damage():
                 print(f"deixis: {self.name}: {events.damage()}", file=sys.stderr)
 
 
-def why_nothing(source: Source, channels: list[re.Pattern[str]]) -> str:
-    """What to say when no message came."""
+def telling_silence(messages: Source,
+                    channels: list[re.Pattern[str]]) -> Iterator[Arrival | None]:
+    """All of them; says once when none has come from the bus for some seconds."""
+    silent_at = time.monotonic() + _SILENT_S if messages.url else math.inf
+    for arrival in messages:
+        if arrival is not None:
+            silent_at = math.inf
+        elif time.monotonic() >= silent_at:
+            silent_at = math.inf
+            print(f"deixis: {why_nothing(messages, channels, ' yet')}", file=sys.stderr, flush=True)
+        yield arrival
+
+
+def why_nothing(source: Source, channels: list[re.Pattern[str]], yet: str = "") -> str:
+    """What to say when no message came, or none `yet`."""
     wanted = f" on {', '.join(channel.pattern for channel in channels)}" if channels else ""
     cure = ("`deixis topics` lists what is spoken there" if source.url
             else f"`deixis topics --log {source.name}` lists what it holds")
-    return f"no message{wanted} from {source.name}: {cure}"
+    return f"no message{wanted} from {source.name}{yet}: {cure}"

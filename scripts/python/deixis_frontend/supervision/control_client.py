@@ -16,7 +16,7 @@ from deixis_frontend.errors import UserError
 from deixis_frontend.layout import Layout
 from deixis_frontend.lcm_url import LcmUrl, require_bus
 from deixis_frontend.supervision.guard import TOKEN_VARIABLE
-from deixis_frontend.supervision.run_folder import RunFolder
+from deixis_frontend.supervision.run_folder import RunFolder, of_another_file
 from deixis_frontend.supervision.supervisor import log_folder
 from deixis_frontend.supervision.system_file import System
 
@@ -42,13 +42,22 @@ class Client:
                 on_service: Callable[[Line], None] = lambda _: None) -> Line:
         """Has a command carried out; calls on_service with the facts of each service done."""
         if command != "status":
-            self.command("status", [])  # A supervisor that hangs is told from one that works.
+            self.own_status()  # A supervisor that hangs is told from one that works.
         with self._connect() as connection:
-            request = {"command": command, "names": names}
+            request = {"command": command, "names": names,
+                       "system_file": str(self._system.path.resolve())}
             connection.sendall(json.dumps(request).encode() + b"\n")
             if command != "status":
                 connection.settimeout(None)  # Services may take as long as their entries allow.
             return self._answer(connection, on_service)
+
+    def own_status(self) -> Line:
+        """What the supervisor says; UserError when its system file is not the one at hand."""
+        status: Line = self.command("status", [])["status"]
+        if status["file"] != str(self._system.path.resolve()):
+            raise UserError(of_another_file(self._system.name, status["file"],
+                                            status["supervisor_pid"]))
+        return status
 
     def _answer(self, connection: socket.socket, on_service: Callable[[Line], None]) -> Line:
         try:
@@ -86,13 +95,10 @@ class Client:
         return _becomes_true(lambda: not self.is_supervised(), seconds)
 
     def _check_same(self, url: LcmUrl | None) -> None:
-        status = self.command("status", [])["status"]
+        status = self.own_status()
         if url and status["lcm_url"] != str(url):
             raise UserError(f"the system '{self._system.name}' runs on {status['lcm_url']} already,"
                             f" not on {url}: `deixis stop` first")
-        if status["file"] != str(self._system.path.resolve()):
-            raise UserError(f"the system '{self._system.name}' runs already, from {status['file']}:"
-                            " `deixis stop` first, or give this system another 'name' in its file")
 
     def _appears(self) -> bool:
         """True when a locked system answers; false when its supervisor has gone meanwhile."""

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import json
+import socket
+import struct
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from deixis_frontend.errors import UserError
+from deixis_frontend.printable import printable
+from deixis_frontend.process_facts import command_name
+from deixis_frontend.supervision.own_log import note
 from deixis_frontend.supervision.supervisor import Report, Supervisor
 
 
@@ -45,7 +50,9 @@ class ControlServer:
                 writer.write(json.dumps(facts).encode() + b"\n")
 
         try:
-            report(await self._obey(json.loads(await reader.readline()), report))
+            request = json.loads(await reader.readline())
+            _note_request(request, writer)
+            report(await self._obey(request, report))
             await writer.drain()
         except (ConnectionError, ValueError):
             return  # The asker has gone, or was none of ours.
@@ -77,3 +84,21 @@ class ControlServer:
         if not self._supervisor.wanted():
             self._shut_down()
         return {"ok": True, "stopped": wanted}
+
+
+def _note_request(request: dict[str, Any], writer: asyncio.StreamWriter) -> None:
+    """Who asks for what, for those who wonder later; `status` changes nothing."""
+    if request.get("command") in ("start", "restart", "stop"):
+        names = ", ".join(map(str, request.get("names", [])))
+        otherwise = "everything" if request["command"] == "stop" else "what is started by default"
+        note(printable(f"asked to {request['command']} {names or otherwise} by"
+                       f" {command_name(_peer_pid(writer))},"
+                       f" system file {request.get('system_file', 'not told')}"))
+
+
+def _peer_pid(writer: asyncio.StreamWriter) -> int:
+    """The process at the other end, as the kernel knows it; see SO_PEERCRED in unix(7)."""
+    connection = writer.get_extra_info("socket")
+    credentials = struct.Struct("3i")  # pid, uid, gid
+    raw = connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, credentials.size)
+    return int(credentials.unpack(raw)[0])

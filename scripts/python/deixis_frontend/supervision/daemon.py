@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import asyncio
+import os
 import secrets
 import signal
 import subprocess
@@ -17,7 +18,7 @@ from deixis_frontend.lcm_url import LcmUrl, parse
 from deixis_frontend.supervision import guard
 from deixis_frontend.supervision.control_server import ControlServer
 from deixis_frontend.supervision.foreground import Foreground
-from deixis_frontend.supervision.own_log import say
+from deixis_frontend.supervision.own_log import note, say
 from deixis_frontend.supervision.run_folder import RunFolder
 from deixis_frontend.supervision.status_listener import StatusListener
 from deixis_frontend.supervision.supervisor import Supervisor
@@ -51,6 +52,7 @@ def supervise(system: System, layout: Layout, url: LcmUrl, *, while_pid: int | N
     guard.stop_all(*folder.lock(system.path.resolve(), token))
     asyncio.run(_run(system, layout, url, folder, token, while_pid, foreground))
     folder.release()
+    note("ended")
 
 
 async def _run(system: System, layout: Layout, url: LcmUrl, folder: RunFolder, token: str,
@@ -60,10 +62,11 @@ async def _run(system: System, layout: Layout, url: LcmUrl, folder: RunFolder, t
     end = asyncio.Event()
     loop = asyncio.get_running_loop()
     for number in (signal.SIGTERM, signal.SIGINT):
-        loop.add_signal_handler(number, end.set)
+        loop.add_signal_handler(number, _end_by_signal, number, end)
     StatusListener(url, system.channel_prefix, layout, supervisor.hear).attach(loop)
     server = ControlServer(supervisor, end.set)
     await server.serve(folder.socket)
+    note(f"started, pid {os.getpid()}, from {system.path}, on {url}")
     helpers = [asyncio.create_task(_keep_guard(token)), asyncio.create_task(_sample(supervisor)),
                asyncio.create_task(_stay_reachable(folder, system, token, server, end))]
     if while_pid:
@@ -88,6 +91,11 @@ async def _keep_guard(token: str) -> None:
             stdin=subprocess.PIPE, start_new_session=True)
         await process.wait()
         await asyncio.sleep(_GUARD_PAUSE_S)
+
+
+def _end_by_signal(number: signal.Signals, end: asyncio.Event) -> None:
+    note(f"asked to stop everything by {number.name}")
+    end.set()
 
 
 async def _end_with(pid: int, end: asyncio.Event) -> None:

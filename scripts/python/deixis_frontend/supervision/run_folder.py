@@ -56,7 +56,7 @@ class RunFolder:
         descriptor = os.open(self._lock_file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
         if not _try_lock(descriptor):
             os.close(descriptor)
-            raise UserError(self._taken())
+            raise UserError(self._taken(system_file))
         left_behind = [line for line in self._facts()[2:] if line]
         os.ftruncate(descriptor, 0)
         os.write(descriptor, f"{os.getpid()}\n{system_file}\n{token}\n".encode())
@@ -116,11 +116,19 @@ class RunFolder:
     def _facts(self) -> list[str]:
         return self._lock_file.read_text(encoding="utf-8", errors="replace").splitlines()
 
-    def _taken(self) -> str:
-        pid, system_file = (*self._facts(), "?", "?")[:2]
+    def _taken(self, system_file: Path) -> str:
+        pid, its_file = (*self._facts(), "?", "?")[:2]
+        if its_file != str(system_file):
+            return of_another_file(self.system_name, its_file, pid)
         return (f"the system '{self.system_name}' is looked after by process {pid} already"
-                f" ({system_file}): stop it with `deixis stop`, or give this system"
-                " another 'name' in its file")
+                f" ({its_file}): stop it with `deixis stop`")
+
+
+def of_another_file(system_name: str, its_file: str, pid: int | str) -> str:
+    """What to say when the supervisor `pid` has another system file than the one at hand."""
+    cure = (f"use --system {its_file}, or give one of them another name" if Path(its_file).exists()
+            else f"it is there no more: `kill {pid}` stops it and its services")
+    return f"the running system '{system_name}' was started from {its_file}: {cure}"
 
 
 def _base() -> Path:
