@@ -138,6 +138,22 @@ def test_an_old_recording_is_replaced_when_asked_for(url: str, log: Path) -> Non
     assert channels(log) == {"A", "B"}
 
 
+def test_of_two_recordings_to_one_name_at_once_none_is_lost(url: str, tmp_path: Path) -> None:
+    output = tmp_path / "x.lcmlog"
+    with talking(url), recording(url, output) as one, recording(url, output) as other:
+        assert becomes_true(lambda: sum(part.stat().st_size > 5000
+                                        for part in tmp_path.glob("x.lcmlog.*.part")) == 2)
+        for record in (one, other):
+            record.send_signal(signal.SIGINT)
+        said = {record: record.communicate(timeout=10)[0] for record in (one, other)}
+    loser, winner = sorted((one, other), key=lambda record: -record.returncode)
+    assert (loser.returncode, winner.returncode) == (1, 0), said
+    [part] = tmp_path.glob("x.lcmlog.*.part")
+    assert f"{output} has come meanwhile" in said[loser] and f"kept in {part}" in said[loser]
+    assert "recorded" not in said[loser] and "recorded" in said[winner]
+    assert channels(output) >= {"A", "B"} and channels(part) >= {"A", "B"}
+
+
 def test_records_to_regular_files_only(url: str, tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
@@ -298,6 +314,17 @@ def test_offline_run_writes_over_a_log_only_when_asked_for(url: str, log: Path,
     assert output.read_text(encoding="ascii") == "old"
     assert deixis(url, "run-offline", log, output, "--force", **environment).returncode == 0
     assert output.read_text(encoding="ascii") == "new"
+
+
+def test_an_offline_run_writes_over_nothing_that_came_meanwhile(url: str, log: Path,
+                                                                offline: Offline) -> None:
+    output = log.with_name("out")
+    environment = offline(f'printf new >"$2"; printf old >"{output}"')
+    result = deixis(url, "run-offline", log, output, **environment)
+    [part] = log.parent.glob("out.*.part")
+    assert result.returncode == 1 and f"kept in {part}" in result.stderr
+    assert output.read_text(encoding="ascii") == "old"
+    assert part.read_text(encoding="ascii") == "new"
 
 
 def test_an_interrupted_offline_run_leaves_nothing_behind_and_says_so(

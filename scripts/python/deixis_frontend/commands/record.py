@@ -134,8 +134,9 @@ def _conclude(logger: subprocess.Popen[str], file: UnfinishedFile, losses: _Loss
     if is_empty:
         raise UserError("nothing was recorded: are the services running on this LCM URL?"
                         " (`deixis status`)")
-    print(f"recorded {_megabytes(file)} to {file.target}")
+    size = _megabytes(file)
     file.keep()
+    print(f"recorded {size} to {file.target}")
     return 0
 
 
