@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -250,6 +251,22 @@ def test_replay_goes_on_behind_damage(url: str, log: Path) -> None:
     assert result.returncode == 0, result.stderr
     assert "530 bytes are damaged and were passed over" in result.stderr
     assert "published 16 messages" in result.stdout  # That before the noise may hold some.
+
+
+@pytest.mark.parametrize("channel", ["a\0b", "a" * 64, "\xe9" * 32])
+def test_replay_passes_over_channels_that_lcm_does_not_carry(url: str, log: Path,
+                                                             channel: str) -> None:
+    alien = log.with_name("alien")
+    name = channel.encode()
+    alien.write_bytes(struct.pack(">IqqII", 0xEDA1DA01, 0, 0, len(name), 4) + name + b"data")
+    both = log.with_name("both")
+    both.write_bytes(alien.read_bytes() + log.read_bytes())
+    result = deixis(url, "replay", both)
+    assert result.returncode == 0, result.stderr
+    assert "1 messages were passed over: LCM carries channels of 1 to 63 bytes" in result.stderr
+    assert "published 20 messages" in result.stdout
+    result = deixis(url, "replay", alien)
+    assert result.returncode == 1 and "nothing was published" in result.stderr
 
 
 def test_replay_does_not_wait_for_a_clock_that_jumped(url: str, log: Path) -> None:
