@@ -368,6 +368,17 @@ def test_a_service_of_another_version_is_a_problem() -> None:
     assert not services.versions(heard(status("tracker")), COMMANDS)
 
 
+@pytest.mark.parametrize("name", ["a\nok       programs: all is well", "\x1b[2J", "--system=x"])
+def test_names_from_the_bus_forge_no_line_and_no_cure(name: str) -> None:
+    traffic = heard(status(name, version="0.0.9", receive_buffer_bytes=1))
+    for finding in (*services.versions(traffic, COMMANDS), *services.loss(traffic, 9, COMMANDS)):
+        assert not finding.cure and finding.line().isprintable()
+
+
+def test_a_finding_is_a_line_whatever_is_in_it() -> None:
+    assert Finding(OK, "x", "a\nb", "\x1b[2J").line() == r"ok       x: a\nb; cure: `\x1b[2J`"
+
+
 @pytest.mark.parametrize(("driver", "settings", "devices"), [
     ("camera", {}, ["/dev/video0"]), ("camera", {"source.path": "3"}, ["/dev/video3"]),
     ("camera", {"source.path": "/dev/front"}, ["/dev/front"]), ("camera", {"source.kind": "video"}, []),

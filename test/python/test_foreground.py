@@ -181,6 +181,15 @@ def test_a_log_goes_on_when_nobody_looks_on(tmp_path: Path) -> None:
     assert (tmp_path / "x.log").read_bytes() == b"one\ntwo\nthree\n"
 
 
+def test_lines_that_steer_a_terminal_are_shown_as_escapes(tmp_path: Path) -> None:
+    shown = (tmp_path / "shown").open("w+b")
+    log = EchoedLog(RotatingLog(tmp_path / "x.log", 10**6, 1), "x", shown)
+    log.write(b"a\t\x1b[2Jb\r\nc\xff\n")
+    log.close()
+    assert (tmp_path / "shown").read_text("utf-8") == "x | a\t\\x1b[2Jb\nx | c\ufffd\n"
+    assert (tmp_path / "x.log").read_bytes() == b"a\t\x1b[2Jb\r\nc\xff\n"
+
+
 def test_lines_are_shown_whole_with_their_name(tmp_path: Path) -> None:
     shown = (tmp_path / "shown").open("w+b")
     log = EchoedLog(RotatingLog(tmp_path / "x.log", 10**6, 1), "x", shown)

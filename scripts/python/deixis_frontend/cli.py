@@ -13,6 +13,7 @@ from types import ModuleType
 from deixis_frontend import __version__, interrupts
 from deixis_frontend.bus import missing_module
 from deixis_frontend.errors import UserError
+from deixis_frontend.printable import printable
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,7 @@ def main(argv: list[str]) -> int:
         return int(arguments.run(arguments))
     except UserError as error:
         for line in str(error).splitlines():
-            print(f"deixis: {line}", file=sys.stderr)
+            print(f"deixis: {printable(line)}", file=sys.stderr)
         return 1
     except ModuleNotFoundError as error:
         if error.name is None or not (missing := missing_module(error.name)):
