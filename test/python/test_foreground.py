@@ -124,12 +124,13 @@ def test_nothing_is_left_when_it_is_killed(bench: Bench, notices: socket.socket)
         assert becomes_true(lambda: not is_alive(pid), _SECONDS)
 
 
+@pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize("after", [0.5, 0.0])
 def test_it_goes_on_when_nobody_reads_what_it_shows(bench: Bench, notices: socket.socket,
-                                                    after: float) -> None:
+                                                    after: float, unbuffered: str) -> None:
     bench.write({"a": {"set": {"ready_after_s": after, "say": "hello"}}})
     reader, writer = os.pipe()
-    process = bench.begin("start", "--foreground", output=writer,
+    process = bench.begin("start", "--foreground", output=writer, PYTHONUNBUFFERED=unbuffered,
                           NOTIFY_SOCKET=str(bench.folder / "notify"))
     try:
         os.close(writer)
