@@ -396,6 +396,13 @@ def test_cameras_that_are_asked_for_are_read_from_the_configuration(
     assert wanted_cameras(system, layout.find()) == dict.fromkeys(devices, file)
 
 
+def test_a_configuration_that_is_nested_too_deeply_is_the_drivers_business(bench: Bench) -> None:
+    file = bench.folder / "deep.yaml"
+    file.write_text("source: " + "[" * 5000, encoding="ascii")
+    bench.write({"eye": {"program": "deixis-camera-driver", "config": str(file)}}, start=["eye"])
+    assert set(wanted_cameras(system_file.load(bench.system_file), layout.find())) == {"/dev/video0"}
+
+
 def test_a_check_that_cannot_look_is_a_problem() -> None:
     def refuse() -> list[Finding]:
         raise UserError("one\ntwo")
