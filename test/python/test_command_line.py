@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 from bench import heed_interrupts
+from deixis import objects_t
+from front_end import run, write_log
 
 from deixis_frontend.cli import main
 
@@ -107,6 +109,61 @@ def test_the_demo_needs_a_folder_for_its_output(tmp_path: Path,
         assert main(["demo", "--output", output]) == 1
         [line] = capsys.readouterr().err.splitlines()
         assert output in line and "--output" in line
+
+
+BUFFERED = [{"PYTHONUNBUFFERED": ""}, {"PYTHONUNBUFFERED": "1"}]
+
+
+@pytest.fixture
+def objects_log(tmp_path: Path) -> Path:
+    """Two messages, which every tool has something to say of."""
+    message = objects_t()
+    return write_log(tmp_path / "x.lcmlog", [(0, "OBJECTS", message.encode()),
+                                             (1000, "OBJECTS", message.encode())])
+
+
+@pytest.mark.parametrize("buffered", BUFFERED)
+@pytest.mark.parametrize("command", [
+    "--version", "--help", "echo --help", "status", "echo --log LOG", "hz --log LOG",
+    "delay --log LOG", "topics --log LOG", "doctor --seconds 0.1", "export LOG --mcap MCAP",
+    "replay LOG", "record -o NEW --seconds 1"])
+def test_output_that_finds_no_room_is_told_in_one_line(
+        command: str, buffered: dict[str, str], url: str, objects_log: Path) -> None:
+    names = {"LOG": objects_log, "MCAP": objects_log.with_name("x.mcap"),
+             "NEW": objects_log.with_name("new")}
+    words = [names.get(word, word) for word in command.split()]
+    done = into("/dev/full", words, url, buffered)
+    assert done.stderr == "deixis: cannot write the output: No space left on device\n"
+    assert done.returncode == 1
+    assert not list(objects_log.parent.glob("*.part"))
+
+
+@pytest.mark.parametrize("buffered", BUFFERED)
+@pytest.mark.parametrize("command", ["--help", "echo --log LOG"])
+def test_a_reader_that_has_gone_is_not_told(command: str, buffered: dict[str, str], url: str,
+                                            objects_log: Path) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    words = [objects_log if word == "LOG" else word for word in command.split()]
+    done = into(writer, words, url, buffered)
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (141, "")
+
+
+def test_output_that_is_closed_is_not_wanted(url: str, objects_log: Path) -> None:
+    done = run(url, ["sh", "-c", '"$@" >&-', "sh", sys.executable, "-m", "deixis_frontend", "echo",
+                     "--log", objects_log])
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def into(output: str | int, words: list[object], url: str,
+         variables: dict[str, str]) -> subprocess.CompletedProcess[str]:
+    """Runs a command with its output going there."""
+    path = {"PYTHONPATH": os.pathsep.join(sys.path), "LCM_DEFAULT_URL": url}
+    with open(output, "w", encoding="utf-8", closefd=isinstance(output, str)) as file:
+        return subprocess.run([sys.executable, "-m", "deixis_frontend", *map(str, words)],
+                              env={**os.environ, **path, **variables}, stdout=file,
+                              stderr=subprocess.PIPE, text=True, check=False, timeout=60)
 
 
 def test_an_early_interrupt_ends_without_a_word(tmp_path: Path) -> None:

@@ -383,6 +383,17 @@ def test_a_service_of_another_version_is_a_problem() -> None:
     assert not services.versions(heard(status("tracker")), COMMANDS)
 
 
+@pytest.mark.parametrize("name", ["a\nok       programs: all is well", "\x1b[2J", "--system=x"])
+def test_names_from_the_bus_forge_no_line_and_no_cure(name: str) -> None:
+    traffic = heard(status(name, version="0.0.9", receive_buffer_bytes=1))
+    for finding in (*services.versions(traffic, COMMANDS), *services.loss(traffic, 9, COMMANDS)):
+        assert not finding.cure and finding.line().isprintable()
+
+
+def test_a_finding_is_a_line_whatever_is_in_it() -> None:
+    assert Finding(OK, "x", "a\nb", "\x1b[2J").line() == r"ok       x: a\nb; cure: `\x1b[2J`"
+
+
 @pytest.mark.parametrize(("driver", "settings", "devices"), [
     ("camera", {}, ["/dev/video0"]), ("camera", {"source.path": "3"}, ["/dev/video3"]),
     ("camera", {"source.path": "/dev/front"}, ["/dev/front"]), ("camera", {"source.kind": "video"}, []),
@@ -398,6 +409,13 @@ def test_cameras_that_are_asked_for_are_read_from_the_configuration(
                          "config": str(file)}}, start=["eye"])
     system = system_file.load(bench.system_file)
     assert wanted_cameras(system, layout.find()) == dict.fromkeys(devices, file)
+
+
+def test_a_configuration_that_is_nested_too_deeply_is_the_drivers_business(bench: Bench) -> None:
+    file = bench.folder / "deep.yaml"
+    file.write_text("source: " + "[" * 5000, encoding="ascii")
+    bench.write({"eye": {"program": "deixis-camera-driver", "config": str(file)}}, start=["eye"])
+    assert set(wanted_cameras(system_file.load(bench.system_file), layout.find())) == {"/dev/video0"}
 
 
 def test_a_check_that_cannot_look_is_a_problem() -> None:

@@ -124,12 +124,13 @@ def test_nothing_is_left_when_it_is_killed(bench: Bench, notices: socket.socket)
         assert becomes_true(lambda: not is_alive(pid), _SECONDS)
 
 
+@pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize("after", [0.5, 0.0])
 def test_it_goes_on_when_nobody_reads_what_it_shows(bench: Bench, notices: socket.socket,
-                                                    after: float) -> None:
+                                                    after: float, unbuffered: str) -> None:
     bench.write({"a": {"set": {"ready_after_s": after, "say": "hello"}}})
     reader, writer = os.pipe()
-    process = bench.begin("start", "--foreground", output=writer,
+    process = bench.begin("start", "--foreground", output=writer, PYTHONUNBUFFERED=unbuffered,
                           NOTIFY_SOCKET=str(bench.folder / "notify"))
     try:
         os.close(writer)
@@ -179,6 +180,15 @@ def test_a_log_goes_on_when_nobody_looks_on(tmp_path: Path) -> None:
     log.write(b"\nthree\n")
     log.close()
     assert (tmp_path / "x.log").read_bytes() == b"one\ntwo\nthree\n"
+
+
+def test_lines_that_steer_a_terminal_are_shown_as_escapes(tmp_path: Path) -> None:
+    shown = (tmp_path / "shown").open("w+b")
+    log = EchoedLog(RotatingLog(tmp_path / "x.log", 10**6, 1), "x", shown)
+    log.write(b"a\t\x1b[2Jb\r\nc\xff\n")
+    log.close()
+    assert (tmp_path / "shown").read_text("utf-8") == "x | a\t\\x1b[2Jb\nx | c\ufffd\n"
+    assert (tmp_path / "x.log").read_bytes() == b"a\t\x1b[2Jb\r\nc\xff\n"
 
 
 def test_lines_are_shown_whole_with_their_name(tmp_path: Path) -> None:

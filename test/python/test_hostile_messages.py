@@ -6,15 +6,18 @@ import importlib
 import json
 import random
 import struct
+import subprocess
 from pathlib import Path
 from typing import Any
 
 import pytest
 from test_types import STRUCTS, Filler
 
+from deixis_frontend.cli import main
 from deixis_frontend.demo.clip import Clip
 from deixis_frontend.demo.commentary import Commentary
 from deixis_frontend.printable import printable
+from deixis_frontend.process_facts import command_name
 from deixis_frontend.received import ChannelDecoder, finite
 from deixis_frontend.service_facts import as_facts
 from deixis_lcm import logs
@@ -105,6 +108,20 @@ def test_the_demo_goes_on_after_bytes_that_are_no_gesture(
     commentary.hear_gesture(good("deixis.gesture_t"))
     assert commentary.count == 1
     assert "Traceback" not in capfd.readouterr().err
+
+
+def test_errors_with_what_came_from_elsewhere_are_shown_as_escapes(
+        capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["replay", "a\x1b[2Jb"]) == 1
+    assert "a\\x1b[2Jb" in capsys.readouterr().err
+
+
+def test_names_of_processes_are_printable() -> None:
+    with subprocess.Popen(["a\x1b[2Jb", "9"], executable="/bin/sleep") as process:
+        try:
+            assert command_name(process.pid) == f"a\\x1b[2Jb pid {process.pid}"
+        finally:
+            process.kill()
 
 
 def test_text_that_steers_a_terminal_is_shown_as_escapes() -> None:

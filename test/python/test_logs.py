@@ -1,8 +1,10 @@
 """deixis_lcm.logs: a log there and back, types told by fingerprint, and broken messages."""
+import io
+
 import pytest
 from bot_core import image_t
 from deixis import candidate_t, gesture_t
-from deixis_lcm import images, logs
+from deixis_lcm import images, log_events, logs
 from kinect import skeleton_msg_t
 
 
@@ -111,6 +113,31 @@ def test_what_is_no_log_is_an_error(tmp_path, content):
     path.write_bytes(content)
     with pytest.raises(ValueError, match="a.lcmlog is no LCM log"):
         list(logs.read(path))
+
+
+def test_what_was_read_to_find_an_event_is_not_read_for_each_sync_word(tmp_path, monkeypatch):
+    path = ten_gestures(tmp_path / "a.lcmlog")
+    path.write_bytes(log_events.SYNC * 10_000 + path.read_bytes())
+    read_bytes = []
+
+    class Counting(io.FileIO):
+        def read(self, size=-1):
+            read_bytes.append(size)
+            return super().read(size)
+
+    monkeypatch.setattr(log_events, "open", Counting, raising=False)
+    with pytest.warns(UserWarning, match="10 messages were read; 40000 bytes are damaged"):
+        assert numbers(path) == list(range(10))
+    assert sum(read_bytes) < 100 * path.stat().st_size  # Else it is 10,000 times a chunk.
+
+
+@pytest.mark.parametrize("before", range(5))
+def test_a_sync_word_across_the_chunks_that_are_read_is_found(tmp_path, before):
+    path = ten_gestures(tmp_path / "a.lcmlog")
+    noise = (1 << 20) + 1 - before
+    path.write_bytes(b"x" * noise + path.read_bytes())
+    with pytest.warns(UserWarning, match=f"10 messages were read; {noise} bytes are damaged"):
+        assert numbers(path) == list(range(10))
 
 
 def test_no_log_is_written_over(tmp_path):

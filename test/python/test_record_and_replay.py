@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -138,6 +139,22 @@ def test_an_old_recording_is_replaced_when_asked_for(url: str, log: Path) -> Non
     assert channels(log) == {"A", "B"}
 
 
+def test_of_two_recordings_to_one_name_at_once_none_is_lost(url: str, tmp_path: Path) -> None:
+    output = tmp_path / "x.lcmlog"
+    with talking(url), recording(url, output) as one, recording(url, output) as other:
+        assert becomes_true(lambda: sum(part.stat().st_size > 5000
+                                        for part in tmp_path.glob("x.lcmlog.*.part")) == 2)
+        for record in (one, other):
+            record.send_signal(signal.SIGINT)
+        said = {record: record.communicate(timeout=10)[0] for record in (one, other)}
+    loser, winner = sorted((one, other), key=lambda record: -record.returncode)
+    assert (loser.returncode, winner.returncode) == (1, 0), said
+    [part] = tmp_path.glob("x.lcmlog.*.part")
+    assert f"{output} has come meanwhile" in said[loser] and f"kept in {part}" in said[loser]
+    assert "recorded" not in said[loser] and "recorded" in said[winner]
+    assert channels(output) >= {"A", "B"} and channels(part) >= {"A", "B"}
+
+
 def test_records_to_regular_files_only(url: str, tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
@@ -236,6 +253,22 @@ def test_replay_goes_on_behind_damage(url: str, log: Path) -> None:
     assert "published 16 messages" in result.stdout  # That before the noise may hold some.
 
 
+@pytest.mark.parametrize("channel", ["a\0b", "a" * 64, "\xe9" * 32])
+def test_replay_passes_over_channels_that_lcm_does_not_carry(url: str, log: Path,
+                                                             channel: str) -> None:
+    alien = log.with_name("alien")
+    name = channel.encode()
+    alien.write_bytes(struct.pack(">IqqII", 0xEDA1DA01, 0, 0, len(name), 4) + name + b"data")
+    both = log.with_name("both")
+    both.write_bytes(alien.read_bytes() + log.read_bytes())
+    result = deixis(url, "replay", both)
+    assert result.returncode == 0, result.stderr
+    assert "1 messages were passed over: LCM carries channels of 1 to 63 bytes" in result.stderr
+    assert "published 20 messages" in result.stdout
+    result = deixis(url, "replay", alien)
+    assert result.returncode == 1 and "nothing was published" in result.stderr
+
+
 def test_replay_does_not_wait_for_a_clock_that_jumped(url: str, log: Path) -> None:
     data = log.read_bytes()
     far = data[:12] + (2**62).to_bytes(8, "big") + data[20:30]
@@ -298,6 +331,17 @@ def test_offline_run_writes_over_a_log_only_when_asked_for(url: str, log: Path,
     assert output.read_text(encoding="ascii") == "old"
     assert deixis(url, "run-offline", log, output, "--force", **environment).returncode == 0
     assert output.read_text(encoding="ascii") == "new"
+
+
+def test_an_offline_run_writes_over_nothing_that_came_meanwhile(url: str, log: Path,
+                                                                offline: Offline) -> None:
+    output = log.with_name("out")
+    environment = offline(f'printf new >"$2"; printf old >"{output}"')
+    result = deixis(url, "run-offline", log, output, **environment)
+    [part] = log.parent.glob("out.*.part")
+    assert result.returncode == 1 and f"kept in {part}" in result.stderr
+    assert output.read_text(encoding="ascii") == "old"
+    assert part.read_text(encoding="ascii") == "new"
 
 
 def test_an_interrupted_offline_run_leaves_nothing_behind_and_says_so(

@@ -454,6 +454,15 @@ def test_log_shows_the_last_lines_with_and_without_a_supervisor(bench: Bench) ->
     assert bench.deixis("log", "-n", "1", "a").stdout.count("\n") == 1
 
 
+def test_what_a_service_says_steers_no_terminal(bench: Bench) -> None:
+    bench.write({"a": {"set": {"say": "\x1b[2Jx\ty", "exit_after_s": 0, "exit_code": 4},
+                       "restart": "never"}})
+    for command in ("start", "status", "log"):
+        result = bench.deixis(command)
+        assert "\\x1b[2Jx" in result.stdout, result.stderr
+        assert "\x1b" not in result.stdout + result.stderr
+
+
 def test_log_follows_through_a_rotation(bench: Bench) -> None:
     bench.write({"a": {"set": {"spam": 300}}},
                 log={"folder": str(bench.logs), "size_mb": 0.02, "count": 5})

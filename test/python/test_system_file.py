@@ -110,6 +110,18 @@ def test_files_without_services_are_refused(tmp_path: Path, text: str) -> None:
     assert len(faults(tmp_path, text)) == 1
 
 
+@pytest.mark.parametrize("key", ["[a]", "{a: b}"])
+def test_a_key_that_is_no_text_is_named(tmp_path: Path, key: str) -> None:
+    [fault] = faults(tmp_path, f"? {key}\n: 1\n{GOOD}")
+    assert fault.startswith("system.yaml:1: ?: a list or a mapping is no key")
+
+
+@pytest.mark.parametrize("text", ["services: " + "[" * 5000, "{a: " * 5000, "- " * 5000])
+def test_a_file_that_is_nested_too_deeply_is_refused(tmp_path: Path, text: str) -> None:
+    [fault] = faults(tmp_path, text)
+    assert "system.yaml: is nested too deeply" in fault
+
+
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     with pytest.raises(Refusal, match="no such file: name one with --system"):
         load(tmp_path / "nowhere.yaml")

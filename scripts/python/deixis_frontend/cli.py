@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import os
 import sys
 import warnings
 from dataclasses import dataclass
 from types import ModuleType
 
-from deixis_frontend import __version__, interrupts
+from deixis_frontend import __version__, interrupts, standard_output
 from deixis_frontend.bus import missing_module
 from deixis_frontend.errors import UserError
+from deixis_frontend.printable import printable
 
 
 @dataclass(frozen=True)
@@ -53,6 +53,10 @@ COMMANDS: dict[str, Command] = {
 
 def main(argv: list[str]) -> int:
     """Runs one command; returns the exit code: 0 done, 1 not done, 2 wrong usage."""
+    return standard_output.checked(lambda: _run(argv))
+
+
+def _run(argv: list[str]) -> int:
     warnings.showwarning = _show_warning
     try:
         arguments = _parser(argv).parse_args(argv)
@@ -60,7 +64,7 @@ def main(argv: list[str]) -> int:
         return int(arguments.run(arguments))
     except UserError as error:
         for line in str(error).splitlines():
-            print(f"deixis: {line}", file=sys.stderr)
+            print(f"deixis: {printable(line)}", file=sys.stderr)
         return 1
     except ModuleNotFoundError as error:
         if error.name is None or not (missing := missing_module(error.name)):
@@ -70,10 +74,6 @@ def main(argv: list[str]) -> int:
     except KeyboardInterrupt:
         interrupts.end_at_once()  # A second Ctrl-C, while Python ends, is not told either.
         return interrupts.INTERRUPTED
-    except BrokenPipeError:
-        # Whoever read our output has gone: not our fault, and nobody left to tell.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 141
 
 
 def add_url(parser: argparse.ArgumentParser, otherwise: str) -> None:

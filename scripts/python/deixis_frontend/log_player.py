@@ -10,6 +10,8 @@ from typing import Any
 
 from deixis_lcm.log_events import Event, EventReader
 
+LONGEST_NAME = 63  # bytes of a channel's, LCM's own limit
+
 
 @dataclass
 class Played:
@@ -18,6 +20,7 @@ class Played:
     published: int = 0
     bytes: int = 0
     other_channels: set[str] = field(default_factory=set)  # that were not asked for
+    unsendable: int = 0  # messages on channels of names that LCM does not carry
     damage: str = ""
 
 
@@ -30,6 +33,9 @@ def play(log: Path, bus: Any, channels: re.Pattern[str], speed: float) -> Played
             if not channels.fullmatch(event.channel):
                 played.other_channels.add(event.channel)
                 continue
+            if not _is_sendable(event.channel):
+                played.unsendable += 1
+                continue
             clock = clock or _Clock(event, speed)
             clock.wait_for(event)
             data = events.data(event)
@@ -38,6 +44,11 @@ def play(log: Path, bus: Any, channels: re.Pattern[str], speed: float) -> Played
             played.bytes += len(data)
         played.damage = events.damage()
     return played
+
+
+def _is_sendable(channel: str) -> bool:
+    """Whether LCM carries the name. In a damaged log any may stand."""
+    return 0 < len(channel.encode()) <= LONGEST_NAME and "\0" not in channel
 
 
 _LONGEST_GAP_S = 3600.0  # a longer one is a jump of the clock that stamped the log

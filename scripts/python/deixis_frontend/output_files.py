@@ -34,7 +34,7 @@ def write_text(path: Path, text: str, option: str) -> None:
 class UnfinishedFile:
     """A file that gets its name when it is complete; till then it is <name>.<pid>.part beside it.
 
-    A context manager: at its end what was not kept is taken away.
+    A context manager: at its end what was not kept is taken away, unless only its name was lacking.
     """
 
     def __init__(self, target: Path, option: str, *, may_replace: bool) -> None:
@@ -47,6 +47,8 @@ class UnfinishedFile:
         if is_there and not may_replace:
             raise UserError(f"{target} is there already: name another {option}, or give --force")
         self._final = final
+        self._may_replace = may_replace
+        self._is_wanted = False  # complete, but without a name
         self.path = final.with_name(f"{final.name}.{os.getpid()}.part")
         try:
             self.path.open("wb").close()
@@ -65,12 +67,46 @@ class UnfinishedFile:
         self.discard()
 
     def keep(self) -> None:
-        """Gives the file its name, in the place of one that has it."""
-        self.path.replace(self._final)
+        """Gives the file its name, in the place of one that has it if that may be replaced.
+
+        Raises UserError when it may not, or when that fails; the file stays where it is then.
+        """
+        self._is_wanted = True
+        try:
+            if not self._may_replace:
+                self._take_free_name()
+            else:
+                self.path.replace(self._final)
+        except FileExistsError:
+            raise self._nameless(f"{self.target} has come meanwhile",
+                                 "`mv` it to a free name") from None
+        except OSError as error:
+            raise self._nameless(f"{self.target} cannot be written: {error.strerror}",
+                                 "`mv` it to another folder") from None
 
     def discard(self) -> None:
-        """Takes the file away unless it was kept."""
-        self.path.unlink(missing_ok=True)
+        """Takes the file away unless it was kept, or is complete and only lacks its name."""
+        if not self._is_wanted:
+            self.path.unlink(missing_ok=True)
+
+    def _take_free_name(self) -> None:
+        """Raises FileExistsError when another one has the name: of several at once one gets it."""
+        try:
+            os.link(self.path, self._final)
+        except FileExistsError:
+            raise
+        except OSError:  # No hard links here, as on FAT: an empty file holds the name meanwhile.
+            self._final.open("xb").close()
+            try:
+                self.path.replace(self._final)
+            except OSError:
+                self._final.unlink()
+                raise
+        else:
+            self.path.unlink()
+
+    def _nameless(self, fault: str, cure: str) -> UserError:
+        return UserError(f"{fault}: what was written is kept in {self.path}: {cure}")
 
 
 def _exists(path: Path, option: str) -> bool:

@@ -6,6 +6,8 @@ import os
 import time
 from pathlib import Path
 
+from deixis_frontend.printable import printable
+
 _TICKS_PER_S = os.sysconf("SC_CLK_TCK")
 _PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
 
@@ -35,7 +37,7 @@ def command_name(pid: int) -> str:
         words = Path(f"/proc/{pid}/cmdline").read_bytes().decode(errors="replace").split("\0")
     except OSError:
         words = [""]
-    return f"{Path(words[0]).name or 'a process'} pid {pid}"
+    return f"{printable(Path(words[0]).name) or 'a process'} pid {pid}"
 
 
 class CpuMeter:

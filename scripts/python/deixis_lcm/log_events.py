@@ -41,6 +41,7 @@ class EventReader:
         self._size = os.fstat(self._file.fileno()).st_size
         self.damaged_bytes = 0
         self.is_cut_off = False
+        self._chunk_offset, self._chunk = 0, b""  # what was read last in search of a sync word
 
     def __enter__(self):
         return self
@@ -126,11 +127,13 @@ class EventReader:
         return self._size
 
     def _find_sync(self, offset):
+        """The next sync word; the end of the file if there is none. Searches no chunk twice from its beginning."""
         while offset < self._size:
-            self._file.seek(offset)
-            chunk = self._file.read(_CHUNK_BYTES)
-            found = chunk.find(SYNC)
+            if not 0 <= offset - self._chunk_offset <= len(self._chunk) - len(SYNC):
+                self._file.seek(offset)
+                self._chunk_offset, self._chunk = offset, self._file.read(_CHUNK_BYTES)
+            found = self._chunk.find(SYNC, offset - self._chunk_offset)
             if found >= 0:
-                return offset + found
-            offset += max(1, len(chunk) - len(SYNC) + 1)
+                return self._chunk_offset + found
+            offset = max(offset, self._chunk_offset + len(self._chunk) - len(SYNC)) + 1
         return self._size

@@ -14,6 +14,7 @@ from deixis_frontend import layout as layouts
 from deixis_frontend.commands.system_option import add_names, add_system, open_system
 from deixis_frontend.errors import UserError
 from deixis_frontend.number_options import count
+from deixis_frontend.printable import printable_line
 from deixis_frontend.supervision.supervisor import log_folder
 
 _POLL_S = 0.2
@@ -91,7 +92,7 @@ class Tail:
         assert self._file is not None
         *lines, self._rest = (self._rest + self._file.read()).split(b"\n")
         for line in lines:
-            yield self._prefix + line.decode(errors="replace")
+            yield self._prefix + printable_line(line)
 
     def _newer_files(self) -> list[Path]:
         """The files that were begun after the open one, oldest first."""

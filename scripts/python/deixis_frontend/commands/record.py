@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
     output = arguments.output or _default_output()
     _make_folder(output.parent)
     file = UnfinishedFile(output, "--output", may_replace=arguments.force)
-    print(f"recording to {output}" + ("" if arguments.seconds else "; Ctrl-C stops"), flush=True)
+    _announce(file, "" if arguments.seconds else "; Ctrl-C stops")
     end_as_by_ctrl_c(signal.SIGTERM, signal.SIGHUP)
     with held_back() as let_through:
         logger = subprocess.Popen([*command, str(file.path)], stdout=subprocess.PIPE,
@@ -82,6 +82,14 @@ class _Losses:
                 self._dropped += int(match[1])
 
 
+def _announce(file: UnfinishedFile, cure: str) -> None:
+    try:
+        print(f"recording to {file.target}{cure}", flush=True)
+    except OSError:
+        file.discard()
+        raise
+
+
 def _default_output() -> Path:
     folder = layouts.find().state / "output" / "recordings"
     return folder / time.strftime("%Y-%m-%d_%H-%M-%S.lcmlog")
@@ -113,7 +121,8 @@ def _wait(logger: subprocess.Popen[str], seconds: float | None, file: Unfinished
                 said = now
             time.sleep(_POLL_S)
     except KeyboardInterrupt:
-        print()
+        if sys.stdout.isatty():
+            print()
     finally:
         logger.send_signal(signal.SIGINT)  # It is in a session of its own: nobody else ends it.
 
@@ -134,8 +143,9 @@ def _conclude(logger: subprocess.Popen[str], file: UnfinishedFile, losses: _Loss
     if is_empty:
         raise UserError("nothing was recorded: are the services running on this LCM URL?"
                         " (`deixis status`)")
-    print(f"recorded {_megabytes(file)} to {file.target}")
+    size = _megabytes(file)
     file.keep()
+    print(f"recorded {size} to {file.target}")
     return 0
 
 

@@ -11,7 +11,7 @@ from deixis_frontend.bus import open_bus
 from deixis_frontend.channel_patterns import channel_pattern
 from deixis_frontend.errors import UserError
 from deixis_frontend.lcm_tools import require_log
-from deixis_frontend.log_player import Played
+from deixis_frontend.log_player import LONGEST_NAME, Played
 from deixis_frontend.number_options import above_zero
 from deixis_frontend.printable import printable
 
@@ -32,6 +32,9 @@ def run(arguments: argparse.Namespace) -> int:
     played = log_player.play(arguments.file, open_bus(url), arguments.channels, arguments.speed)
     if played.damage:
         print(f"deixis: {arguments.file}: {played.damage}", file=sys.stderr)
+    if played.unsendable:
+        print(f"deixis: {arguments.file}: {played.unsendable} messages were passed over: LCM carries"
+              f" channels of 1 to {LONGEST_NAME} bytes without NUL only", file=sys.stderr)
     if not played.published:
         raise UserError(_why_nothing(arguments, played))
     print(f"published {played.published} messages ({played.bytes / 1e6:.1f} MB) on {url}")
@@ -39,6 +42,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _why_nothing(arguments: argparse.Namespace, played: Played) -> str:
+    if played.unsendable:
+        return f"nothing was published: of {arguments.file} no message can be"
     if not played.other_channels:
         return f"nothing was published: {arguments.file} holds no whole message"
     return (f"nothing was published: no channel is '{arguments.channels.pattern}': {arguments.file}"

@@ -7,7 +7,7 @@ import sys
 from dataclasses import replace
 
 from deixis_frontend import layout as layouts
-from deixis_frontend import lcm_url
+from deixis_frontend import lcm_url, standard_output
 from deixis_frontend.commands.system_option import (
     add_names, add_system, open_system, service_printer)
 from deixis_frontend.supervision import daemon
@@ -53,4 +53,8 @@ def _stay(system: System, arguments: argparse.Namespace) -> int:
     foreground = Foreground(arguments.names, service_printer(system))
     daemon.supervise(replace(system, path=system.path.resolve()), layout, url,
                      foreground=foreground)
+    try:
+        sys.stdout.flush()
+    except OSError:
+        standard_output.discard()  # That nobody read it was no reason to end, and is no failure.
     return foreground.exit_code

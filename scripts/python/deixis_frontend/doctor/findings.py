@@ -8,6 +8,7 @@ from typing import Any
 
 from deixis_frontend.bus import missing_module
 from deixis_frontend.errors import UserError
+from deixis_frontend.printable import printable
 
 OK, WARNING, PROBLEM = "ok", "warning", "problem"
 Command = tuple[str, ...]
@@ -24,9 +25,9 @@ class Finding:
     fixes: tuple[Command, ...] = ()
 
     def line(self) -> str:
-        """For people."""
+        """For people; one line on a terminal whatever was heard on the bus."""
         cure = f"; cure: `{self.cure}`" if self.cure else ""
-        return f"{self.level:<8} {self.check}: {self.text}{cure}"
+        return printable(f"{self.level:<8} {self.check}: {self.text}{cure}")
 
     def facts(self) -> dict[str, Any]:
         """For programs."""

@@ -12,7 +12,7 @@ from deixis_frontend.listening.publisher_names import PublisherNames
 from deixis_frontend.listening.traffic import Traffic
 from deixis_frontend.printable import printable
 from deixis_frontend.supervision.control_client import Client
-from deixis_frontend.supervision.system_file import System
+from deixis_frontend.supervision.system_file import SERVICE_NAME, System
 
 
 def supervisor(client: Client, system: System, commands: CommandLines) -> list[Finding]:
@@ -78,7 +78,7 @@ def loss(traffic: Traffic, granted: int, commands: CommandLines) -> list[Finding
             findings.append(Finding(
                 WARNING, "loss", f"{service} has a receive buffer of {last.receive_buffer_bytes}"
                 f" bytes, it would get {granted} now",
-                commands.on_system("restart", last.service)))
+                _restart(last, commands)))
         before = {channel.name: channel.gaps for channel in first.channels}
         for channel in last.channels:
             lost = channel.gaps - before.get(channel.name, channel.gaps)
@@ -94,5 +94,11 @@ def versions(traffic: Traffic, commands: CommandLines) -> list[Finding]:
     """Services that run since before the last build."""
     return [Finding(PROBLEM, "programs", f"{traffic.name_of(status)} runs as version"
                     f" {printable(status.version)}, the front end is {__version__}",
-                    commands.on_system("restart", status.service))
+                    _restart(status, commands))
             for _, status in traffic.statuses() if status.version != __version__]
+
+
+def _restart(status: Any, commands: CommandLines) -> str:
+    """The cure; none for a name that no system file can have: anyone may say anything on the bus."""
+    is_one = SERVICE_NAME.fullmatch(status.service) is not None
+    return commands.on_system("restart", status.service) if is_one else ""

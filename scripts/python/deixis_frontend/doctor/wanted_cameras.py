@@ -48,7 +48,7 @@ def _content(file: Path) -> Any:
     """Of a driver's file; what is wrong with it, the driver itself tells."""
     try:
         return yaml.safe_load(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError, yaml.YAMLError):
+    except (OSError, ValueError, RecursionError, yaml.YAMLError):
         return None
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import BinaryIO
 
+from deixis_frontend.printable import printable_line
 from deixis_frontend.supervision.rotating_log import RotatingLog
 
 _LONGEST_LINE_BYTES = 16384  # one that does not end is shown in parts
@@ -14,7 +15,7 @@ class EchoedLog:
 
     def __init__(self, log: RotatingLog, name: str, stream: BinaryIO) -> None:
         self._log = log
-        self._prefix = f"{name} | ".encode()
+        self._prefix = f"{name} | "
         self._stream: BinaryIO | None = stream
         self._rest = b""
 
@@ -41,7 +42,8 @@ class EchoedLog:
         if self._stream is None or not lines:
             return
         try:
-            self._stream.write(b"".join(self._prefix + line + b"\n" for line in lines))
+            self._stream.write("".join(f"{self._prefix}{printable_line(line)}\n"
+                                       for line in lines).encode())
             self._stream.flush()
         except OSError:
             self._stream = None  # Nobody reads any more; the log has it all.

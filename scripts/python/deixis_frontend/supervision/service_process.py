@@ -9,6 +9,7 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+from deixis_frontend.printable import printable
 from deixis_frontend.programs import last_words
 
 _CHUNK_BYTES = 65536
@@ -38,8 +39,8 @@ class ServiceProcess:
 
     @property
     def last_error_line(self) -> str:
-        """The last line with text that the program wrote to stderr."""
-        return last_words(self._error_tail.decode(errors="replace"))
+        """The last line with text that the program wrote to stderr; printable."""
+        return printable(last_words(self._error_tail.decode(errors="replace")))
 
     def owns(self, pid: int) -> bool:
         """True when `pid` is the program or a child of it that stayed in its session."""

@@ -26,6 +26,8 @@ def read(path: Path) -> Section:
         raise Refusal([f"{path}: cannot be read: {error}"]) from None
     except yaml.YAMLError as error:
         raise Refusal([_syntax_fault(path, error)]) from None
+    except RecursionError:
+        raise Refusal([f"{path}: is nested too deeply: a '[' or '{{' too many?"]) from None
     if not isinstance(node, yaml.MappingNode):
         raise Refusal([f"{path}: holds no 'key: value' lines: see the shipped config/system.yaml"])
     return Section(path, node, "", [])
@@ -42,6 +44,9 @@ class Section:
         self.faults = faults
         self._values: dict[str, yaml.Node] = {}
         for key, value in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                self._fault(key, "?", "a list or a mapping is no key: write a text before the ':'")
+                continue
             if key.value in self._values:
                 self._fault(key, str(key.value), "given twice: remove one")
             self._values[key.value] = value

@@ -12,7 +12,7 @@ from deixis_frontend.supervision.strict_yaml import Section
 
 SHORTEST_SILENCE_S = 2.0
 RESTARTS = ("always", "on_failure", "never")
-_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
+SERVICE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
 
 
 @dataclass(frozen=True)
@@ -173,7 +173,7 @@ def _silence(section: Section, default: float) -> float:
 
 def _check(system: System, top: Section) -> None:
     for name in (system.name, *system.services):
-        if not _NAME.fullmatch(name):
+        if not SERVICE_NAME.fullmatch(name):
             key = "name" if name == system.name else f"services.{name}"
             top.fault(key, f"'{name}' is not made of letters, digits, '_' and '-' alone")
     known = {*system.services, *system.groups()}
