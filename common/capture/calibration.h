@@ -16,6 +16,8 @@ struct CalibrationConfig {
   std::string file;
   double horizontal_fov_deg = 60.0;  ///< Guess without a file: horizontal field of view.
   MountConfig mount;                 ///< Where the camera is; see MountOf.
+  /// Where this stands in the configuration, for messages; not a setting.
+  std::string key = "calibration";
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -33,8 +35,7 @@ struct LensFile {
 };
 
 /// Throws ConfigError naming file, key and cure; `cure` is for a file that is not there.
-LensFile ReadLensFile(const std::string& path,
-                      const std::string& cure = "set calibration.file, or leave it empty to guess");
+LensFile ReadLensFile(const std::string& path, const std::string& cure = "name one that does");
 
 /// What is known of the lens at one image size.
 struct CalibrationAnswer {

@@ -39,7 +39,7 @@ CameraDriverService::CameraDriverService(const CameraDriverServiceConfig& config
     : config_(config),
       output_(output),
       clock_(capture::SystemClocks()),
-      dimos_(config.dimos, config.driver.calibration.mount.parent_frame,
+      dimos_(config.dimos, config.driver.calibration,
              {[this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); },
               [this](const geometry::CameraPose& pose) { Publish(pose); }, [this] { Advance(); }}),
       driver_(config.driver, SourceOf(config, input)) {

@@ -59,7 +59,7 @@ StereoDriverService::StereoDriverService(const StereoDriverServiceConfig& config
     : config_(config),
       output_(output),
       clock_(capture::SystemClocks()),
-      dimos_(config.dimos.camera, mount().parent_frame,
+      dimos_(config.dimos.camera, config.driver.depth_camera.calibration,
              {[this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); },
               [this](const geometry::CameraPose& pose) { Publish(pose); }, [this] { Advance(); }}),
       driver_(config.driver, SourceOf(config, input), WhatToKeep(config)) {

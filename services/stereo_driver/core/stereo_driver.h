@@ -20,6 +20,7 @@ namespace deixis::stereo_driver {
 inline capture::CalibrationConfig DepthCameraLensDefaults() {
   capture::CalibrationConfig config;
   config.horizontal_fov_deg = 57.0;
+  config.key = "depth_camera.calibration";
   return config;
 }
 

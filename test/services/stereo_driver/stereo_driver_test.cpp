@@ -114,7 +114,9 @@ TEST_F(StereoDriverTest, TurnsADepthCamerasFrameIntoTheSame) {
   EXPECT_EQ(output.calibration->disparity_sigma_px, 0.0);
   EXPECT_EQ(output.calibration->depth_sigma_m_at_1m, 0.003);
   EXPECT_FALSE(output.calibration->rectified.is_calibrated);
-  EXPECT_THAT(driver.calibration_remark(), testing::HasSubstr("guessed"));
+  EXPECT_THAT(driver.calibration_remark(),
+              testing::HasSubstr("guessed from a horizontal field of view of 57 deg; set "
+                                 "depth_camera.calibration.file"));
 }
 
 class RegisteringDriverTest : public StereoDriverTest {
