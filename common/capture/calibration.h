@@ -64,6 +64,9 @@ class Calibration {
   /// not when a file is named, or nothing but its time, name and mount is new.
   bool UseOwn(const geometry::CameraCalibration& lens);
 
+  /// Whether a file or the camera has said the lens: it need not be guessed.
+  bool IsKnown() const { return lens_ || own_; }
+
   /// The lens of pictures of `size`: as in the file or as the camera says it, scaled when they have
   /// another size of the same aspect, or guessed. Throws ConfigError when the file's aspect is
   /// another one; a camera's own lens of another aspect is left out, with a remark.

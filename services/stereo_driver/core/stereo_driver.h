@@ -6,6 +6,7 @@
 
 #include "common/capture/calibration.h"
 #include "common/capture/calibration_schedule.h"
+#include "common/capture/lens_wait.h"
 #include "common/capture/pacer.h"
 #include "common/images/stereo_image.h"
 #include "services/stereo_driver/core/calibration/registration_calibration.h"
@@ -88,7 +89,7 @@ enum class KeepPairs { kNo, kYes };
 
 /// Turns frames of a source, or of others, into rectified picture and depth with their calibration:
 /// the calibration before the first one, once per second of picture time, and when the size
-/// changes.
+/// changes. Frames of a dimos robot wait for its lens, see capture::LensWait.
 class StereoDriver {
  public:
   /// `source` may be nullptr: frames then come by Convert(). Reads the calibration files that its
@@ -151,6 +152,7 @@ class StereoDriver {
 
   std::optional<RigCalibration> rig_;                    ///< For pairs.
   std::optional<capture::Calibration> lens_;             ///< For colour and depth.
+  std::optional<capture::LensWait> lens_wait_;           ///< Of cameras that say it themselves.
   std::optional<RegistrationCalibration> registration_;  ///< For depth of another view.
   geometry::StereoCalibration calibration_;              ///< Of the frames that come now.
   std::string remark_;
