@@ -102,8 +102,10 @@ transport::Health CameraDriverService::health() const {
   const capture::SourceStatus status = driver_.status();
   const std::string pose_trouble = dimos_.trouble();
   transport::Health health;
-  health.is_degraded = !status.trouble.empty() || !pose_trouble.empty();
+  const std::string pace_trouble = driver_.pace_trouble();
+  health.is_degraded = !status.trouble.empty() || !pose_trouble.empty() || !pace_trouble.empty();
   health.Say(status.trouble);
+  health.Say(pace_trouble);
   health.Say(pose_trouble);
   health.Say(driver_.calibration_remark());
   health.SayCount(status.corrupt, "corrupt pictures");

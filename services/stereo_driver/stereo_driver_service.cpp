@@ -165,9 +165,11 @@ transport::Health StereoDriverService::health() const {
   const FrameSourceStatus status = driver_.status();
   const std::string pose_trouble = dimos_.trouble();
   transport::Health health;
+  const std::string pace_trouble = driver_.pace_trouble();
   health.is_degraded = !status.pictures.trouble.empty() || !pose_trouble.empty() ||
-                       !driver_.registration_fault().empty();
+                       !pace_trouble.empty() || !driver_.registration_fault().empty();
   health.Say(status.pictures.trouble);
+  health.Say(pace_trouble);
   health.Say(pose_trouble);
   health.Say(driver_.registration_fault());
   health.Say(driver_.calibration_remark());

@@ -61,6 +61,8 @@ class CameraDriver {
   void UseMount(const std::optional<geometry::CameraMount>& mount);
 
   capture::SourceStatus status() const;
+  /// What is wrong with the playing of a recording; empty when nothing is.
+  std::string pace_trouble() const { return pacer_.trouble(); }
   /// What has to be known about the calibration ("guessed ..."); empty before the first picture and
   /// when it is as in its file.
   const std::string& calibration_remark() const { return lens_.remark; }

@@ -125,6 +125,8 @@ class StereoDriver {
   void UseMount(const std::optional<geometry::CameraMount>& mount);
 
   FrameSourceStatus status() const;
+  /// What is wrong with the playing of a recording; empty when nothing is.
+  std::string pace_trouble() const { return pacer_.trouble(); }
   /// What has to be known about the calibration; empty before the first frame and when it is as in
   /// its files.
   const std::string& calibration_remark() const { return remark_; }

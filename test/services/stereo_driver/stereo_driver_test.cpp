@@ -105,6 +105,17 @@ TEST_F(StereoDriverTest, PlaysARecordingByItsTimes) {
   EXPECT_EQ(driver.Next({33'500}).output->stereo.left.time.microseconds, 1'033'000);
 }
 
+TEST_F(StereoDriverTest, SaysThatARecordingIsPlayedLate) {
+  config_.pace = capture::Pace::kByTime;
+  StereoDriver driver(config_,
+                      std::make_unique<ScriptedFrames>(pair_, std::deque<std::int64_t>{0, 33'000}),
+                      KeepPairs::kNo);
+  driver.Next({0});
+  EXPECT_EQ(driver.pace_trouble(), "");
+  driver.Next({2'500'000});
+  EXPECT_THAT(driver.pace_trouble(), testing::HasSubstr("plays 2 s late"));
+}
+
 TEST_F(StereoDriverTest, TurnsADepthCamerasFrameIntoTheSame) {
   config_.source.kind = FrameSourceKind::kKinectChannel;
   StereoDriver driver(config_, nullptr, KeepPairs::kNo);
