@@ -23,11 +23,22 @@ std::string Text(double value) {
   return text;
 }
 
-CalibrationAnswer Guess(cv::Size size, double horizontal_fov_deg) {
-  const double fov_rad = horizontal_fov_deg * M_PI / 180.0;
+CalibrationAnswer Guess(cv::Size size, const CalibrationConfig& config) {
+  const double fov_rad = config.horizontal_fov_deg * M_PI / 180.0;
   return {geometry::GuessCalibration(size.width, size.height, fov_rad),
-          "not calibrated: guessed from a horizontal field of view of " + Text(horizontal_fov_deg) +
-              " deg; set calibration.file"};
+          "not calibrated: guessed from a horizontal field of view of " +
+              Text(config.horizontal_fov_deg) + " deg; set " + config.key + ".file"};
+}
+
+LensFile ReadNamed(const CalibrationConfig& config) {
+  const std::string cure = "set " + config.key + ".file, or leave it empty to guess";
+  std::string path;
+  try {
+    path = config::FindConfig(config.file).string();
+  } catch (const config::ConfigError& error) {
+    throw config::ConfigError(error.what() + ("; " + cure));
+  }
+  return ReadLensFile(path, cure);
 }
 
 // Time, name and mount apart.
@@ -79,7 +90,7 @@ CalibrationAnswer AtSize(const LensFile& lens, cv::Size size) {
 }
 
 Calibration::Calibration(const CalibrationConfig& config) : config_(config) {
-  if (!config.file.empty()) lens_ = ReadLensFile(config::FindConfig(config.file).string());
+  if (!config.file.empty()) lens_ = ReadNamed(config);
 }
 
 Calibration::Calibration(const CalibrationConfig& config, LensFile lens)
@@ -94,7 +105,7 @@ bool Calibration::UseOwn(const CameraCalibration& lens) {
 CalibrationAnswer Calibration::For(cv::Size size) const {
   if (lens_) return AtSize(*lens_, size);
   if (own_ && HasSameAspect(*own_, size)) return AtSize({"the camera's own lens", *own_}, size);
-  CalibrationAnswer answer = Guess(size, config_.horizontal_fov_deg);
+  CalibrationAnswer answer = Guess(size, config_);
   if (own_) {
     answer.remark += "; the camera's own lens is for " + std::to_string(own_->width_px) + "x" +
                      std::to_string(own_->height_px) + ", another aspect";

@@ -16,6 +16,8 @@ struct CalibrationConfig {
   std::string file;
   double horizontal_fov_deg = 60.0;  ///< Guess without a file: horizontal field of view.
   MountConfig mount;                 ///< Where the camera is; see MountOf.
+  /// Where this stands in the configuration, for messages; not a setting.
+  std::string key = "calibration";
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -33,8 +35,7 @@ struct LensFile {
 };
 
 /// Throws ConfigError naming file, key and cure; `cure` is for a file that is not there.
-LensFile ReadLensFile(const std::string& path,
-                      const std::string& cure = "set calibration.file, or leave it empty to guess");
+LensFile ReadLensFile(const std::string& path, const std::string& cure = "name one that does");
 
 /// What is known of the lens at one image size.
 struct CalibrationAnswer {
@@ -62,6 +63,9 @@ class Calibration {
   /// Takes the lens as the camera says it of itself. Returns whether answers differ from now on:
   /// not when a file is named, or nothing but its time, name and mount is new.
   bool UseOwn(const geometry::CameraCalibration& lens);
+
+  /// Whether a file or the camera has said the lens: it need not be guessed.
+  bool IsKnown() const { return lens_ || own_; }
 
   /// The lens of pictures of `size`: as in the file or as the camera says it, scaled when they have
   /// another size of the same aspect, or guessed. Throws ConfigError when the file's aspect is

@@ -33,10 +33,15 @@ class Pacer {
   /// Valid from the first IsDue() on.
   Timestamp CaptureTime(Timestamp recorded) const;
 
+  /// What is wrong when the picture that was asked for last was due more than a second ago; empty
+  /// when nothing is.
+  std::string trouble() const;
+
  private:
   Pace pace_;
   std::int64_t start_time_utime_;
   std::optional<Timestamp> began_;  ///< Wall clock at the first question.
+  std::int64_t late_us_ = 0;        ///< Of the picture that was asked for last.
 };
 
 }  // namespace deixis::capture

@@ -26,9 +26,11 @@ std::vector<std::pair<std::string, std::string>> DimosCameraConfig::Channels() c
   return channels;
 }
 
-DimosCamera::DimosCamera(DimosCameraConfig config, std::string parent_frame, Handlers handlers)
+DimosCamera::DimosCamera(DimosCameraConfig config, const capture::CalibrationConfig& calibration,
+                         Handlers handlers)
     : config_(std::move(config)),
-      parent_frame_(std::move(parent_frame)),
+      parent_frame_(calibration.mount.parent_frame),
+      calibration_key_(calibration.key),
       handlers_(std::move(handlers)) {}
 
 std::unique_ptr<capture::PushedSource> DimosCamera::Listen(transport::Bus& input) {
@@ -74,8 +76,8 @@ void DimosCamera::HearFrameOf(const CameraCalibration& lens) {
 std::string DimosCamera::trouble() const {
   const std::string lacks = chain_ ? chain_->WhatLacks() : "";
   if (lacks.empty()) return "";
-  return "no camera pose from '" + config_.tf_channel + "': " + lacks +
-         "; see calibration.mount.parent_frame and dimos.camera_frame";
+  return "no camera pose from '" + config_.tf_channel + "': " + lacks + "; see " +
+         calibration_key_ + ".mount.parent_frame and dimos.camera_frame";
 }
 
 }  // namespace deixis::dimos

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/capture/calibration.h"
 #include "common/capture/pushed_source.h"
 #include "common/config/config.h"
 #include "common/geometry/camera_calibration.h"
@@ -45,8 +46,9 @@ class DimosCamera {
     std::function<void()> picture;  ///< One waits in the source. Called from within the bus.
   };
 
-  /// `parent_frame` as in the camera's mount; empty = transforms are not followed.
-  DimosCamera(DimosCameraConfig config, std::string parent_frame, Handlers handlers);
+  /// `calibration` is the camera's; transforms are followed when its mount has a parent_frame.
+  DimosCamera(DimosCameraConfig config, const capture::CalibrationConfig& calibration,
+              Handlers handlers);
 
   /// Subscribes. The source gives the pictures, and must live as long as `input` is handled, as
   /// must this.
@@ -64,6 +66,7 @@ class DimosCamera {
 
   DimosCameraConfig config_;
   std::string parent_frame_;
+  std::string calibration_key_;
   Handlers handlers_;
   std::optional<geometry::TransformChain> chain_;  ///< While transforms are followed.
   bool has_picture_named_frame_ = false;

@@ -6,7 +6,9 @@ namespace deixis::program {
 
 void SourceLog::Note(const std::string& calibration_remark, const std::string& trouble) {
   if (calibration_remark != remark_) {
-    logging::Info("calibration", {{"remark", calibration_remark}});
+    const bool is_known = calibration_remark.empty();
+    if (is_known) logging::Info("calibration_known");
+    if (!is_known) logging::Info("calibration", {{"remark", calibration_remark}});
     remark_ = calibration_remark;
   }
   const bool is_lost = !trouble.empty();

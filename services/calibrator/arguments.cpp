@@ -81,9 +81,9 @@ void AddFit(CLI::App& app, Arguments& arguments, Texts& texts) {
       ->capture_default_str();
   app.add_flag("--fix-aspect", arguments.calibration.lens.has_fixed_aspect, "fx = fy");
   app.add_flag("--zero-tangent", arguments.calibration.lens.has_zero_tangent, "p1 = p2 = 0");
-  app.add_option(
-         "--least-change", texts.change_percent,
-         "Views are too similar when corners lie nearer, % of the width (files 2, streams 6)")
+  app.add_option("--least-change", texts.change_percent,
+                 "Views are too similar when corners lie nearer, % of the width (files and folders "
+                 "without times 2, streams 6)")
       ->check(CLI::Range(0.0, 50.0));
   app.add_option("--most-edge-px", arguments.selection.most_edge_px,
                  "Wider edges are blurred (default: 4, or 1/200 of the width)")
@@ -215,11 +215,8 @@ void ReadTexts(const Texts& texts, Arguments& arguments) {
   RequireOneFeed(arguments);
   ReadModel(texts, arguments.task, arguments.calibration);
   if (texts.has_fixed_lenses) arguments.calibration.refinement = Refinement::kPlacesOnly;
-  const bool is_files = !arguments.feed.left.empty();
   if (!texts.size.empty()) arguments.feed.device_size = ParseSize(texts.size, "--size");
-  const double change_percent =
-      texts.change_percent >= 0.0 ? texts.change_percent : (is_files ? 2.0 : 6.0);
-  arguments.selection.least_change = change_percent / 100.0;
+  if (texts.change_percent >= 0.0) arguments.least_change = texts.change_percent / 100.0;
   arguments.selection.most_motion_px = texts.still_px;
 }
 

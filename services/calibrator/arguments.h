@@ -37,7 +37,9 @@ struct Arguments {
   Task task = Task::kCamera;
   BoardConfig board;
   FeedArguments feed;
-  SelectionConfig selection;
+  SelectionConfig selection;  ///< least_change as `least_change` below says.
+  /// Mean way of the corners from every earlier view, of the width; nothing = by the feed's kind.
+  std::optional<double> least_change;
   CalibrationOptions calibration;
   Demands demands;
   int most_views = 40;   ///< Streams: enough.

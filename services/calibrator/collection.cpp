@@ -14,6 +14,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kFewestForError = 4;
 constexpr std::size_t kEnoughWithoutAdvice = 15;
 constexpr std::chrono::seconds kTellEvery{2};
+// Of the width. A stream has more than enough of pictures that are alike.
+constexpr double kLeastChangeInStream = 0.06;
+constexpr double kLeastChangeOfSeparate = 0.02;
 
 /// Tells at most every two seconds of what is refused in a stream; of a file always.
 class Complaints {
@@ -112,7 +115,10 @@ class Collector {
  private:
   static SelectionConfig SelectionFor(const Feed& feed, const Arguments& arguments) {
     SelectionConfig config = arguments.selection;
-    if (feed.kind() == FeedKind::kSeparate) config.most_motion_px = 0.0;
+    const bool is_stream = feed.kind() != FeedKind::kSeparate;
+    if (!is_stream) config.most_motion_px = 0.0;
+    config.least_change =
+        arguments.least_change.value_or(is_stream ? kLeastChangeInStream : kLeastChangeOfSeparate);
     return config;
   }
 

@@ -43,11 +43,7 @@ void ReportLens(const LensFit& fit, std::ostream& out) {
 }  // namespace
 
 void ReportFates(const ViewSelection& selection, const std::string& trouble, std::ostream& out) {
-  std::string text;
-  for (const auto& [fate, count] : selection.fates()) {
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + NameOf(fate);
-  }
-  out << "pictures: " << text << "\n";
+  out << "pictures: " << selection.FatesText() << "\n";
   if (!trouble.empty()) out << "passed over: " << trouble << "\n";
 }
 

@@ -40,12 +40,12 @@ std::unique_ptr<Feed> SourceFeedOf(const FeedArguments& feed) {
     configs.push_back(SourceConfigOf(feed, feed.right_source, "--right-source"));
   }
   TimeByOrderUnlessAllHaveTimes(configs);
+  const FeedKind kind = KindOf(configs);
   if (configs.size() == 2) {
-    return std::make_unique<TwoSourceFeed>(OpenSource(configs[0]), OpenSource(configs[1]));
+    return std::make_unique<TwoSourceFeed>(OpenSource(configs[0]), OpenSource(configs[1]), kind);
   }
-  return std::make_unique<SourceFeed>(OpenSource(configs[0]), feed.is_side_by_side
-                                                                  ? PictureLayout::kSideBySide
-                                                                  : PictureLayout::kOneCamera);
+  const auto layout = feed.is_side_by_side ? PictureLayout::kSideBySide : PictureLayout::kOneCamera;
+  return std::make_unique<SourceFeed>(OpenSource(configs[0]), layout, kind);
 }
 
 std::unique_ptr<Feed> BusFeedOf(const FeedArguments& feed, Task task) {
@@ -83,11 +83,15 @@ int PrintBoard(const Arguments& arguments, std::ostream& out) {
 }
 
 void RequireViews(const Collected& collected, const Feed& feed) {
-  if (!collected.selection.shots().empty()) return;
-  const std::string trouble = feed.trouble().empty() ? "" : " (" + feed.trouble() + ")";
-  throw std::runtime_error("no view was accepted out of " + std::to_string(collected.pictures) +
-                           " pictures" + trouble +
-                           ": check --board (inner corners, not squares), light and focus");
+  const ViewSelection& selection = collected.selection;
+  if (!selection.shots().empty()) return;
+  std::string text =
+      "no view was accepted out of " + std::to_string(collected.pictures) + " pictures";
+  if (!feed.trouble().empty()) text += " (" + feed.trouble() + ")";
+  const std::optional<Fate> reason = selection.MostFrequentFate();
+  text +=
+      reason ? ": " + selection.FatesText() + "; " + CureOf(*reason) : ": see that pictures come";
+  throw std::runtime_error(text);
 }
 
 /// Writes unless something speaks against it; says what.

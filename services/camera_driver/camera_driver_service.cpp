@@ -39,7 +39,7 @@ CameraDriverService::CameraDriverService(const CameraDriverServiceConfig& config
     : config_(config),
       output_(output),
       clock_(capture::SystemClocks()),
-      dimos_(config.dimos, config.driver.calibration.mount.parent_frame,
+      dimos_(config.dimos, config.driver.calibration,
              {[this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); },
               [this](const geometry::CameraPose& pose) { Publish(pose); }, [this] { Advance(); }}),
       driver_(config.driver, SourceOf(config, input)) {
@@ -102,8 +102,10 @@ transport::Health CameraDriverService::health() const {
   const capture::SourceStatus status = driver_.status();
   const std::string pose_trouble = dimos_.trouble();
   transport::Health health;
-  health.is_degraded = !status.trouble.empty() || !pose_trouble.empty();
+  const std::string pace_trouble = driver_.pace_trouble();
+  health.is_degraded = !status.trouble.empty() || !pose_trouble.empty() || !pace_trouble.empty();
   health.Say(status.trouble);
+  health.Say(pace_trouble);
   health.Say(pose_trouble);
   health.Say(driver_.calibration_remark());
   health.SayCount(status.corrupt, "corrupt pictures");

@@ -41,11 +41,13 @@ GestureRecogniserService::GestureRecogniserService(const GestureRecogniserServic
 
 transport::Health GestureRecogniserService::health() const {
   if (recogniser_.knows_objects()) return {};
+  if (!has_heard_hands_) return {false, "waiting for the first " + config_.objects_channel};
   return {true,
           "no objects are known yet: start object_detector or publish " + config_.objects_channel};
 }
 
 void GestureRecogniserService::OnHands(const scene::Hands& hands) {
+  has_heard_hands_ = true;
   const Recognition recognition = recogniser_.ObserveHands(hands);
   output_.Publish(config_.state_channel, recognition.state);
   for (const scene::Gesture& gesture : recognition.gestures) {

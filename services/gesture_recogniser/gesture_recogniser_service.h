@@ -38,6 +38,7 @@ class GestureRecogniserService {
   GestureRecogniserService(const GestureRecogniserServiceConfig& config, transport::Bus& input,
                            transport::Bus& output);
 
+  /// Degraded when hands come and objects do not; before either has come, nothing is wrong yet.
   transport::Health health() const;
 
  private:
@@ -47,6 +48,7 @@ class GestureRecogniserService {
   GestureRecogniserServiceConfig config_;
   transport::Bus& output_;
   PointingRecogniser recogniser_;
+  bool has_heard_hands_ = false;
 };
 
 }  // namespace deixis::gesture_recogniser

@@ -59,7 +59,7 @@ StereoDriverService::StereoDriverService(const StereoDriverServiceConfig& config
     : config_(config),
       output_(output),
       clock_(capture::SystemClocks()),
-      dimos_(config.dimos.camera, mount().parent_frame,
+      dimos_(config.dimos.camera, config.driver.depth_camera.calibration,
              {[this](const geometry::CameraCalibration& lens) { driver_.UseLens(lens); },
               [this](const geometry::CameraPose& pose) { Publish(pose); }, [this] { Advance(); }}),
       driver_(config.driver, SourceOf(config, input), WhatToKeep(config)) {
@@ -165,9 +165,11 @@ transport::Health StereoDriverService::health() const {
   const FrameSourceStatus status = driver_.status();
   const std::string pose_trouble = dimos_.trouble();
   transport::Health health;
+  const std::string pace_trouble = driver_.pace_trouble();
   health.is_degraded = !status.pictures.trouble.empty() || !pose_trouble.empty() ||
-                       !driver_.registration_fault().empty();
+                       !pace_trouble.empty() || !driver_.registration_fault().empty();
   health.Say(status.pictures.trouble);
+  health.Say(pace_trouble);
   health.Say(pose_trouble);
   health.Say(driver_.registration_fault());
   health.Say(driver_.calibration_remark());

@@ -40,6 +40,24 @@ std::string NameOf(Fate fate) {
   return "unknown";
 }
 
+std::string CureOf(Fate fate) {
+  switch (fate) {
+    case Fate::kAccepted:
+      return "nothing is wrong";
+    case Fate::kNoBoard:
+      return "check --board (inner corners, not squares), light and focus";
+    case Fate::kBlurred:
+      return "hold the board still, see to light and focus, or set --most-edge-px";
+    case Fate::kMoving:
+      return "hold the board still, or set --most-motion-px";
+    case Fate::kTooSimilar:
+      return "show the board from elsewhere, or set --least-change";
+    case Fate::kOtherSize:
+      return "give pictures of one size";
+  }
+  return "unknown";
+}
+
 ViewSelection::ViewSelection(const SelectionConfig& config, std::size_t cameras)
     : config_(config), coverages_(cameras) {}
 
@@ -125,6 +143,21 @@ std::optional<Judgement> ViewSelection::JudgeChange(
                      "corners lie " + Figures("%.1f", *way_px) + " px from those of " + shot.name};
   }
   return std::nullopt;
+}
+
+std::string ViewSelection::FatesText() const {
+  std::string text;
+  for (const auto& [fate, count] : fates_) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + NameOf(fate);
+  }
+  return text;
+}
+
+std::optional<Fate> ViewSelection::MostFrequentFate() const {
+  if (fates_.empty()) return std::nullopt;
+  return std::max_element(fates_.begin(), fates_.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 std::vector<std::string> ViewSelection::Advice() const {

@@ -27,6 +27,8 @@ enum class Fate {
 };
 
 std::string NameOf(Fate fate);
+/// What helps against it: "hold the board still, or set --most-motion-px".
+std::string CureOf(Fate fate);
 
 struct Judgement {
   Fate fate = Fate::kNoBoard;
@@ -45,6 +47,10 @@ class ViewSelection {
 
   const std::vector<Shot>& shots() const { return shots_; }
   const Coverage& coverage(std::size_t camera) const { return coverages_.at(camera); }
+  /// How many shots met which fate: "3 accepted, 2 blurred"; empty before the first one.
+  std::string FatesText() const;
+  /// The fate that most shots met; nothing before the first one.
+  std::optional<Fate> MostFrequentFate() const;
   const std::map<Fate, int>& fates() const { return fates_; }  ///< How many shots met which.
   /// What the next shot should show, by the camera that needs it most.
   std::vector<std::string> Advice() const;

@@ -19,7 +19,7 @@ struct Sight {
 
 /// How the pictures of a feed follow one another.
 enum class FeedKind {
-  kSeparate,   ///< Each was taken on purpose: files.
+  kSeparate,   ///< Each was taken on purpose: files, a folder without times.
   kRecording,  ///< A stream with an end: the board must be held still for a moment.
   kLive        ///< A stream without one: somebody moves the board and wants to be told.
 };

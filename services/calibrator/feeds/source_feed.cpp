@@ -34,10 +34,6 @@ std::string TroubleOf(const capture::SourceStatus& status) {
          (status.last_corrupt.empty() ? "" : ", the last one " + status.last_corrupt);
 }
 
-FeedKind KindOf(const capture::Source& source) {
-  return source.status().is_live ? FeedKind::kLive : FeedKind::kRecording;
-}
-
 double MostApart_s(const std::array<capture::Grab, 2>& grabs) {
   double most_s = kMostApart_s;
   for (const capture::Grab& grab : grabs) {
@@ -58,8 +54,8 @@ void WaitIfLive(const capture::Source& source) {
 
 }  // namespace
 
-SourceFeed::SourceFeed(std::unique_ptr<capture::Source> source, PictureLayout layout)
-    : source_(std::move(source)), layout_(layout) {}
+SourceFeed::SourceFeed(std::unique_ptr<capture::Source> source, PictureLayout layout, FeedKind kind)
+    : source_(std::move(source)), layout_(layout), kind_(kind) {}
 
 Take SourceFeed::Next() {
   capture::Grab grab = source_->Next();
@@ -69,15 +65,16 @@ Take SourceFeed::Next() {
                             Split(grab.picture->bgr, layout_)}};
 }
 
-FeedKind SourceFeed::kind() const { return KindOf(*source_); }
+FeedKind SourceFeed::kind() const { return kind_; }
 
 std::string SourceFeed::trouble() const { return TroubleOf(source_->status()); }
 
 TwoSourceFeed::TwoSourceFeed(std::unique_ptr<capture::Source> left,
-                             std::unique_ptr<capture::Source> right) {
+                             std::unique_ptr<capture::Source> right, FeedKind kind)
+    : kind_(kind) {
   sources_.push_back(std::move(left));
   sources_.push_back(std::move(right));
-  if (KindOf(*sources_[0]) != KindOf(*sources_[1])) {
+  if (sources_[0]->status().is_live != sources_[1]->status().is_live) {
     throw config::ConfigError("--source and --right-source must both be live or both recordings");
   }
   std::array<capture::Grab, 2> first{sources_[0]->Next(), sources_[1]->Next()};
@@ -126,7 +123,7 @@ bool TwoSourceFeed::HasEnded(std::size_t side) const {
   return states_[side] == capture::SourceState::kFinished && !IsWaiting(side);
 }
 
-FeedKind TwoSourceFeed::kind() const { return KindOf(*sources_[0]); }
+FeedKind TwoSourceFeed::kind() const { return kind_; }
 
 std::string TwoSourceFeed::trouble() const {
   for (const auto& source : sources_) {
@@ -144,6 +141,12 @@ void TimeByOrderUnlessAllHaveTimes(std::vector<capture::SourceConfig>& configs) 
   for (capture::SourceConfig& config : configs) {
     if (capture::IsRecording(config) && config.rate_hz == 0.0) config.rate_hz = kRateOfOrder_hz;
   }
+}
+
+FeedKind KindOf(const std::vector<capture::SourceConfig>& configs) {
+  if (std::any_of(configs.begin(), configs.end(), LacksTimes)) return FeedKind::kSeparate;
+  return std::all_of(configs.begin(), configs.end(), capture::IsRecording) ? FeedKind::kRecording
+                                                                           : FeedKind::kLive;
 }
 
 capture::SourceConfig ParseSource(const std::string& text, const std::string& option) {

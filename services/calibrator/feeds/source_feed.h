@@ -16,7 +16,7 @@ enum class PictureLayout {
 /// Pictures of one camera, stream, video or folder.
 class SourceFeed final : public Feed {
  public:
-  SourceFeed(std::unique_ptr<capture::Source> source, PictureLayout layout);
+  SourceFeed(std::unique_ptr<capture::Source> source, PictureLayout layout, FeedKind kind);
 
   Take Next() override;
   FeedKind kind() const override;
@@ -25,6 +25,7 @@ class SourceFeed final : public Feed {
  private:
   std::unique_ptr<capture::Source> source_;
   PictureLayout layout_;
+  FeedKind kind_;
   int pictures_ = 0;
 };
 
@@ -33,7 +34,8 @@ class SourceFeed final : public Feed {
 class TwoSourceFeed final : public Feed {
  public:
   /// Throws ConfigError when one is live and the other is not.
-  TwoSourceFeed(std::unique_ptr<capture::Source> left, std::unique_ptr<capture::Source> right);
+  TwoSourceFeed(std::unique_ptr<capture::Source> left, std::unique_ptr<capture::Source> right,
+                FeedKind kind);
 
   Take Next() override;
   FeedKind kind() const override;
@@ -46,7 +48,8 @@ class TwoSourceFeed final : public Feed {
   bool HasEnded(std::size_t side) const;
 
   std::vector<std::unique_ptr<capture::Source>> sources_;  ///< Left, right.
-  std::array<capture::SourceState, 2> states_{};           ///< What each one said last.
+  FeedKind kind_;
+  std::array<capture::SourceState, 2> states_{};  ///< What each one said last.
   double most_apart_s_ = 0.0;
   TimeMatcher<capture::Picture, capture::Picture> matcher_{0.0};
   int pairs_ = 0;
@@ -56,6 +59,10 @@ class TwoSourceFeed final : public Feed {
 /// recordings among them one picture per second, since only their order counts then. A rate that is
 /// set stays.
 void TimeByOrderUnlessAllHaveTimes(std::vector<capture::SourceConfig>& configs);
+
+/// How the pictures of `configs` follow one another: where a folder does not say when its pictures
+/// were taken, they are no stream.
+FeedKind KindOf(const std::vector<capture::SourceConfig>& configs);
 
 /// "device:0", "video:walk.mp4", "folder:DIR", "url:rtsp://..." as a source's configuration.
 /// Throws ConfigError.

@@ -23,7 +23,9 @@ CameraDriver::CameraDriver(const CameraDriverConfig& config,
       calibration_(config.calibration),
       pacer_(config.pace, config.start_time_utime),
       is_live_(source_->status().is_live),
-      mount_(capture::MountOf(config.calibration.mount)) {}
+      mount_(capture::MountOf(config.calibration.mount)) {
+  if (config.source.kind == capture::SourceKind::kDimos) lens_wait_.emplace();
+}
 
 DriverOutput CameraDriver::Next(Timestamp now) {
   DriverOutput output;
@@ -36,6 +38,10 @@ DriverOutput CameraDriver::Next(Timestamp now) {
   const Timestamp time = is_live_ ? waiting_->time : pacer_.CaptureTime(waiting_->time);
   const capture::Picture picture = std::move(*waiting_);
   waiting_.reset();  // Whatever comes of it, it is not tried again.
+  if (lens_wait_ && lens_wait_->Holds(calibration_, time)) {
+    output.state = capture::SourceState::kWaiting;
+    return output;
+  }
   output.state = capture::SourceState::kPicture;
   output.picture = capture::Encode(picture, time, config_.camera, config_.image);
   output.calibration = CalibrationIfDue(*output.picture);
@@ -50,6 +56,12 @@ capture::SourceState CameraDriver::Fetch() {
 }
 
 bool CameraDriver::IsDue(Timestamp now) { return is_live_ || pacer_.IsDue(waiting_->time, now); }
+
+capture::SourceStatus CameraDriver::status() const {
+  capture::SourceStatus status = source_->status();
+  if (lens_wait_) status.skipped += lens_wait_->held_back();
+  return status;
+}
 
 void CameraDriver::UseLens(const geometry::CameraCalibration& lens) {
   if (calibration_.UseOwn(lens)) is_own_lens_new_ = true;

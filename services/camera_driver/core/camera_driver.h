@@ -5,6 +5,7 @@
 
 #include "common/capture/calibration.h"
 #include "common/capture/calibration_schedule.h"
+#include "common/capture/lens_wait.h"
 #include "common/capture/pacer.h"
 #include "common/capture/picture_encoder.h"
 #include "common/capture/sources.h"
@@ -42,7 +43,7 @@ struct DriverOutput {
 
 /// Turns a source of pictures into the stream that is published: each with its capture time, and
 /// the calibration before the first picture, once per second of picture time, and when the size
-/// changes.
+/// changes. Pictures of a dimos robot wait for its lens, see capture::LensWait.
 class CameraDriver {
  public:
   CameraDriver(const CameraDriverConfig& config, std::unique_ptr<capture::Source> source);
@@ -59,7 +60,9 @@ class CameraDriver {
   /// it is as in the configuration.
   void UseMount(const std::optional<geometry::CameraMount>& mount);
 
-  capture::SourceStatus status() const { return source_->status(); }
+  capture::SourceStatus status() const;
+  /// What is wrong with the playing of a recording; empty when nothing is.
+  std::string pace_trouble() const { return pacer_.trouble(); }
   /// What has to be known about the calibration ("guessed ..."); empty before the first picture and
   /// when it is as in its file.
   const std::string& calibration_remark() const { return lens_.remark; }
@@ -74,7 +77,8 @@ class CameraDriver {
   capture::Calibration calibration_;
   capture::Pacer pacer_;
   bool is_live_;
-  std::optional<capture::Picture> waiting_;  ///< Recorded picture whose time has not come.
+  std::optional<capture::Picture> waiting_;     ///< Recorded picture whose time has not come.
+  std::optional<capture::LensWait> lens_wait_;  ///< Of cameras that say their lens themselves.
   capture::CalibrationAnswer lens_;
   bool is_own_lens_new_ = false;
   std::optional<geometry::CameraMount> mount_;

@@ -127,6 +127,7 @@ StereoDriver::StereoDriver(const StereoDriverConfig& config, std::unique_ptr<Fra
       registration_.emplace(depth_camera.registration);
     }
     lens_.emplace(ColourLens(depth_camera.calibration, registration_));
+    if (config.source.kind == FrameSourceKind::kDimos) lens_wait_.emplace();
     mount_ = capture::MountOf(depth_camera.calibration.mount);
   } else {
     rig_.emplace(config.calibration);
@@ -146,7 +147,8 @@ StereoStep StereoDriver::Next(Timestamp now) {
   const Timestamp time = is_live_ ? waiting_->time : pacer_.CaptureTime(waiting_->time);
   Frame frame = std::move(*waiting_);
   waiting_.reset();  // Whatever comes of it, it is not tried again.
-  step.output = ConvertAt(time, std::move(frame));
+  const bool is_held = lens_wait_ && lens_wait_->Holds(*lens_, time);
+  if (!is_held) step.output = ConvertAt(time, std::move(frame));
   if (!step.output) step.state = SourceState::kWaiting;
   return step;
 }
@@ -241,6 +243,7 @@ FrameSourceStatus StereoDriver::status() const {
   FrameSourceStatus status;
   status.pictures.is_live = true;
   if (source_) status = source_->status();
+  if (lens_wait_) status.pictures.skipped += lens_wait_->held_back();
   status.unusable += unusable_;
   status.last_unusable = last_unusable_;
   return status;

@@ -6,6 +6,7 @@
 
 #include "common/capture/calibration.h"
 #include "common/capture/calibration_schedule.h"
+#include "common/capture/lens_wait.h"
 #include "common/capture/pacer.h"
 #include "common/images/stereo_image.h"
 #include "services/stereo_driver/core/calibration/registration_calibration.h"
@@ -20,6 +21,7 @@ namespace deixis::stereo_driver {
 inline capture::CalibrationConfig DepthCameraLensDefaults() {
   capture::CalibrationConfig config;
   config.horizontal_fov_deg = 57.0;
+  config.key = "depth_camera.calibration";
   return config;
 }
 
@@ -87,7 +89,7 @@ enum class KeepPairs { kNo, kYes };
 
 /// Turns frames of a source, or of others, into rectified picture and depth with their calibration:
 /// the calibration before the first one, once per second of picture time, and when the size
-/// changes.
+/// changes. Frames of a dimos robot wait for its lens, see capture::LensWait.
 class StereoDriver {
  public:
   /// `source` may be nullptr: frames then come by Convert(). Reads the calibration files that its
@@ -124,6 +126,8 @@ class StereoDriver {
   void UseMount(const std::optional<geometry::CameraMount>& mount);
 
   FrameSourceStatus status() const;
+  /// What is wrong with the playing of a recording; empty when nothing is.
+  std::string pace_trouble() const { return pacer_.trouble(); }
   /// What has to be known about the calibration; empty before the first frame and when it is as in
   /// its files.
   const std::string& calibration_remark() const { return remark_; }
@@ -152,6 +156,7 @@ class StereoDriver {
 
   std::optional<RigCalibration> rig_;                    ///< For pairs.
   std::optional<capture::Calibration> lens_;             ///< For colour and depth.
+  std::optional<capture::LensWait> lens_wait_;           ///< Of cameras that say it themselves.
   std::optional<RegistrationCalibration> registration_;  ///< For depth of another view.
   geometry::StereoCalibration calibration_;              ///< Of the frames that come now.
   std::string remark_;

@@ -95,7 +95,18 @@ TEST_F(CalibrationTest, GuessesWithoutAFileAndSaysSo) {
   const auto [lens, remark] = Calibration(config).For({640, 480});
   EXPECT_FALSE(lens.is_calibrated);
   EXPECT_NEAR(lens.focal_px.x(), 320.0, 1e-9);
-  EXPECT_THAT(remark, AllOf(HasSubstr("guessed"), HasSubstr("90 deg")));
+  EXPECT_THAT(remark, AllOf(HasSubstr("guessed"), HasSubstr("90 deg; set calibration.file")));
+}
+
+TEST_F(CalibrationTest, NamesTheKeyUnderWhichItStands) {
+  CalibrationConfig config;
+  config.key = "depth_camera.calibration";
+  EXPECT_THAT(Calibration(config).For({640, 480}).remark,
+              HasSubstr("; set depth_camera.calibration.file"));
+  config.file = "missing.yaml";
+  EXPECT_THAT([&config] { Calibration calibration(config); },
+              ThrowsMessage<config::ConfigError>(
+                  HasSubstr("; set depth_camera.calibration.file, or leave it empty to guess")));
 }
 
 TEST_F(CalibrationTest, NamesFileAndKeyThatIsMissing) {

@@ -7,6 +7,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string LoggedBy(SourceLog& log, const std::string& remark, const std::string& trouble) {
   testing::internal::CaptureStderr();
@@ -19,6 +20,14 @@ TEST(SourceLog, TellsEachThingOnce) {
   EXPECT_EQ(LoggedBy(log, "", ""), "");
   EXPECT_THAT(LoggedBy(log, "guessed", ""), AllOf(HasSubstr("calibration"), HasSubstr("guessed")));
   EXPECT_EQ(LoggedBy(log, "guessed", ""), "");
+}
+
+TEST(SourceLog, TellsThatACalibrationHasBecomeKnown) {
+  SourceLog log;
+  LoggedBy(log, "guessed", "");
+  EXPECT_THAT(LoggedBy(log, "", ""),
+              AllOf(HasSubstr("calibration_known"), Not(HasSubstr("remark"))));
+  EXPECT_EQ(LoggedBy(log, "", ""), "");
 }
 
 TEST(SourceLog, TellsThatASourceIsLostAndThatItIsThereAgain) {

@@ -90,7 +90,7 @@ TEST_F(CalibratorFeeds, APictureOfTwoCamerasIsCutInTwo) {
   Write("pair1.png", both);
   auto config = ParseSource("folder:" + folder_.path().string(), "--source");
   config.rate_hz = 1.0;
-  SourceFeed feed(OpenSource(config), PictureLayout::kSideBySide);
+  SourceFeed feed(OpenSource(config), PictureLayout::kSideBySide, FeedKind::kRecording);
   EXPECT_EQ(feed.kind(), FeedKind::kRecording);
   const auto sight = feed.Next().sight;
   ASSERT_TRUE(sight);
@@ -118,7 +118,7 @@ class CalibratorTwoSourceFeed : public CalibratorFeeds {
         ParseSource("folder:" + Path("right"), "--right-source")};
     for (auto& config : configs) config.rate_hz = rate_hz;
     TimeByOrderUnlessAllHaveTimes(configs);
-    return {OpenSource(configs[0]), OpenSource(configs[1])};
+    return {OpenSource(configs[0]), OpenSource(configs[1]), FeedKind::kRecording};
   }
   /// Which picture of the left camera came with which one of the right camera.
   static std::vector<std::pair<int, int>> PairsOf(TwoSourceFeed& feed) {
@@ -164,6 +164,17 @@ TEST_F(CalibratorTwoSourceFeed, OfTimesThatOnlyOneRecordingHasNothingIsMade) {
   folder_.Write("left/times.csv", "file,time_s\n0.png,0\n1.png,0.1\n2.png,0.2\n");
   TwoSourceFeed feed = Open(0.0);
   EXPECT_THAT(PairsOf(feed), ElementsAre(Pair(0, 0), Pair(1, 1), Pair(2, 2)));
+}
+
+TEST_F(CalibratorFeeds, OnlyAFolderWithoutTimesIsNoStream) {
+  const auto kind = [](const std::string& text) { return KindOf({ParseSource(text, "--source")}); };
+  const std::string folder = "folder:" + folder_.path().string();
+  EXPECT_EQ(kind(folder), FeedKind::kSeparate);
+  folder_.Write("times.csv", "file,time_s\n0.png,0\n");
+  EXPECT_EQ(kind(folder), FeedKind::kRecording);
+  EXPECT_EQ(kind("video:walk.mp4"), FeedKind::kRecording);
+  EXPECT_EQ(kind("device:0"), FeedKind::kLive);
+  EXPECT_EQ(kind("url:rtsp://robot"), FeedKind::kLive);
 }
 
 TEST_F(CalibratorFeeds, ASourceOfNoKnownKindIsRefused) {

@@ -53,6 +53,15 @@ class CalibratorSession : public ::testing::Test {
       cv::imwrite(Path(side + std::to_string(i) + ".png"), pictures[i]);
     }
   }
+  /// Makes a stream of the left pictures: one every 0.1 s.
+  void WriteTimes(std::size_t pictures) const {
+    std::string times = "file,time_s\n";
+    for (std::size_t i = 0; i < pictures; ++i) {
+      times += "left" + std::to_string(i) + ".png," + std::to_string(0.1 * static_cast<double>(i)) +
+               "\n";
+    }
+    folder_.Write("times.csv", times);
+  }
   std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
 
   Arguments CameraArguments() const {
@@ -229,7 +238,31 @@ TEST_F(CalibratorSession, AFolderThatCannotBeMadeIsNamedBeforeTheWork) {
 
 TEST_F(CalibratorSession, PicturesWithoutABoardGiveNothing) {
   Write("left", std::vector<cv::Mat>(3, cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(90))));
-  EXPECT_THAT(Refusal(CameraArguments()), HasSubstr("no view was accepted out of 3 pictures"));
+  EXPECT_THAT(Refusal(CameraArguments()),
+              HasSubstr("no view was accepted out of 3 pictures: 3 no board; check --board"));
+}
+
+TEST_F(CalibratorSession, AFolderOfSinglePicturesNeedsNoBoardHeldStill) {
+  Write("left", Chessboard().left);
+  Arguments arguments = CameraArguments();
+  arguments.feed.left.clear();
+  arguments.feed.source = "folder:" + folder_.path().string();
+  arguments.selection.most_motion_px = -1.0;
+  ASSERT_EQ(Run(arguments), 0) << said_;
+  EXPECT_THAT(said_, HasSubstr("14 accepted"));
+}
+
+TEST_F(CalibratorSession, WhyNoViewWasAcceptedIsCountedAndTheCureIsNamed) {
+  const cv::Mat bare(480, 640, CV_8UC3, cv::Scalar::all(90));
+  Write("left", {Chessboard().left[0], Chessboard().left[5], Chessboard().left[10], bare});
+  WriteTimes(4);
+  Arguments arguments = CameraArguments();
+  arguments.feed.left.clear();
+  arguments.feed.source = "folder:" + folder_.path().string();
+  arguments.selection.most_motion_px = -1.0;
+  EXPECT_THAT(Refusal(arguments),
+              HasSubstr("out of 4 pictures: 1 no board, 3 moving; hold the board still, or set "
+                        "--most-motion-px"));
 }
 
 TEST_F(CalibratorSession, ABrokenFileIsPassedOverAndTold) {
@@ -260,10 +293,12 @@ TEST_F(CalibratorSession, InARecordingTheBoardMustBeHeldStill) {
   std::vector<cv::Mat> pictures;
   for (const cv::Mat& picture : Chessboard().left) pictures.insert(pictures.end(), 2, picture);
   Write("left", pictures);
+  WriteTimes(pictures.size());
   Arguments arguments = CameraArguments();
   arguments.feed.left.clear();
   arguments.feed.source = "folder:" + folder_.path().string();
   arguments.selection.most_motion_px = -1.0;
+  arguments.least_change = 0.02;
   arguments.most_views = 12;
   ASSERT_EQ(Run(arguments), 0) << said_;
   EXPECT_THAT(said_, HasSubstr("12 accepted, 12 moving"));

@@ -197,6 +197,7 @@ class DimosCamera : public testing::Test {
 
 TEST_F(DimosCamera, PicturesGoOnWithTheirTimesUnderTheConfiguredName) {
   CameraDriverService service(config_, bus_, bus_);
+  Send(bus_, config_.dimos.info_channel, RobotLens(1'700'000'000));
   Send(bus_, config_.dimos.image_channel, RobotPicture(1'700'000'000));
   Exchange(service);
   ASSERT_EQ(pictures_.size(), 1U);
@@ -219,8 +220,35 @@ TEST_F(DimosCamera, TheLensIsThatOfTheRobotWithTheTimeOfThePicture) {
   EXPECT_EQ(service.health().text, "");
 }
 
+TEST_F(DimosCamera, PicturesThatComeBeforeTheLensAreHeldBackAndCounted) {
+  CameraDriverService service(config_, bus_, bus_);
+  Send(bus_, config_.dimos.image_channel, RobotPicture(10));
+  Exchange(service);
+  EXPECT_TRUE(lenses_.empty());
+  EXPECT_THAT(service.health().text, HasSubstr("1 skipped pictures"));
+  Send(bus_, config_.dimos.info_channel, RobotLens(10));
+  Send(bus_, config_.dimos.image_channel, RobotPicture(11));
+  Exchange(service);
+  ASSERT_EQ(lenses_.size(), 1U);
+  EXPECT_TRUE(lenses_[0].is_calibrated);
+  EXPECT_EQ(pictures_.size(), 1U);
+}
+
+TEST_F(DimosCamera, TheLensOfARobotThatSaysNoneIsGuessedAfterTwoSeconds) {
+  CameraDriverService service(config_, bus_, bus_);
+  for (const std::int32_t sec : {10, 11, 12, 13}) {
+    Send(bus_, config_.dimos.image_channel, RobotPicture(sec));
+    Exchange(service);
+  }
+  ASSERT_EQ(pictures_.size(), 2U);
+  EXPECT_EQ(pictures_[0].time.microseconds, 12'250'000);
+  EXPECT_FALSE(lenses_.at(0).is_calibrated);
+  EXPECT_THAT(service.health().text, HasSubstr("guessed"));
+}
+
 TEST_F(DimosCamera, BadPicturesAreCountedAndTheNextIsTaken) {
   CameraDriverService service(config_, bus_, bus_);
+  Send(bus_, config_.dimos.info_channel, RobotLens(1));
   auto bad = RobotPicture(1);
   bad.encoding = "32FC1";
   Send(bus_, config_.dimos.image_channel, bad);
@@ -251,6 +279,7 @@ class DimosTransforms : public DimosCamera {
                                          [this](const auto& pose) { poses_.push_back(pose); });
   }
   void SendPicture(CameraDriverService& service, std::int32_t sec) {
+    Send(bus_, config_.dimos.info_channel, RobotLens(sec));
     Send(bus_, config_.dimos.image_channel, RobotPicture(sec));
     Exchange(service);
   }

@@ -63,6 +63,14 @@ TEST(CameraDriver, GivesEveryRecordedPictureWhenItIsDue) {
   EXPECT_EQ(driver.Next({kStart_us + 390'000}).picture->time.microseconds, kStart_us + 300'000);
 }
 
+TEST(CameraDriver, SaysThatARecordingIsPlayedLate) {
+  CameraDriver driver = Driver(Pace::kByTime, TwentyPictures());
+  driver.Next({0});
+  EXPECT_EQ(driver.pace_trouble(), "");
+  driver.Next({2'500'000});  // Of 0.1 s.
+  EXPECT_THAT(driver.pace_trouble(), HasSubstr("plays 2 s late"));
+}
+
 TEST(CameraDriver, KeepsTheCaptureTimeOfLivePictures) {
   SourceStatus live;
   live.is_live = true;

@@ -86,12 +86,22 @@ TEST_F(GestureRecogniserServiceTest, StatesCarryTheTimeOfTheirHands) {
   EXPECT_EQ(states_[0].camera, "test");
 }
 
+TEST_F(GestureRecogniserServiceTest, WaitsForObjectsAsLongAsNoHandsComeEither) {
+  const GestureRecogniserService service({}, bus_, bus_);
+  EXPECT_FALSE(service.health().is_degraded);
+  EXPECT_EQ(service.health().text, "waiting for the first OBJECTS");
+}
+
 TEST_F(GestureRecogniserServiceTest, SaysThatNoObjectsAreKnown) {
   const GestureRecogniserService service({}, bus_, bus_);
+  bus_.Publish("HAND_TRACKS", HandAt(0.0, {100.0, 100.0}));
+  test::HandleAll(bus_);
   EXPECT_TRUE(service.health().is_degraded);
+  EXPECT_THAT(service.health().text, testing::HasSubstr("start object_detector"));
   bus_.Publish("OBJECTS", PointingScene().Objects(0.0));
   test::HandleAll(bus_);
   EXPECT_FALSE(service.health().is_degraded);
+  EXPECT_EQ(service.health().text, "");
 }
 
 TEST_F(GestureRecogniserServiceTest, NamesThePathOfANestedFault) {

@@ -291,5 +291,16 @@ TEST(FrameSourceConfig, TakesTwoRecordingsOrTwoLiveCameras) {
               testing::ThrowsMessage<config::FaultsFound>(HasSubstr("source.right.kind")));
 }
 
+TEST(MakeFrameSource, NamesBothCamerasWhenNeitherIsThere) {
+  FrameSourceConfig config;
+  config.left.path = "/nowhere/left";
+  config.right.path = "/nowhere/right";
+  const capture::Clocks clocks{[] { return Timestamp{}; }, [] { return Timestamp{}; }};
+  EXPECT_THAT([&] { MakeFrameSource(config, clocks); },
+              testing::ThrowsMessage<config::ConfigError>(
+                  testing::AllOf(HasSubstr("/nowhere/left"), HasSubstr("source.left.path"),
+                                 HasSubstr("/nowhere/right"), HasSubstr("source.right.path"))));
+}
+
 }  // namespace
 }  // namespace deixis::stereo_driver

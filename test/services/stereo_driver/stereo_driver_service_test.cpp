@@ -247,6 +247,33 @@ TEST_F(StereoDriverServiceTest, TakesColourDepthAndLensOfADimosRobot) {
   EXPECT_TRUE(calibration->rectified.is_calibrated);
 }
 
+TEST_F(StereoDriverServiceTest, HoldsFramesOfADimosRobotBackThatComeBeforeItsLens) {
+  config_.driver.source.kind = FrameSourceKind::kDimos;
+  StereoDriverService service(config_, bus_, bus_);
+  std::vector<geometry::StereoCalibration> calibrations;
+  bus_.Subscribe<geometry::StereoCalibration>(
+      "STEREO_CALIBRATION", transport::Delivery::kEvery,
+      [&calibrations](const auto& said) { calibrations.push_back(said); });
+  const auto send = [&](std::int64_t time_us) {
+    bus_.Publish("/color_image#sensor_msgs.Image", images::Image{{time_us}, "", pair_.left.bgr});
+    bus_.Publish("/depth_image#sensor_msgs.Image",
+                 images::DepthImage{{time_us}, "", cv::Mat(240, 320, CV_16UC1, cv::Scalar(2000))});
+    test::HandleAll(bus_);
+    service.Step();
+    test::HandleAll(bus_);
+  };
+  send(100'000);
+  EXPECT_TRUE(received_.empty());
+  EXPECT_THAT(service.health().text, HasSubstr("1 skipped pictures"));
+  geometry::CameraCalibration lens = geometry::GuessCalibration(320, 240, 1.3);
+  lens.is_calibrated = true;
+  bus_.Publish("/camera_info#sensor_msgs.CameraInfo", lens);
+  send(200'000);
+  ASSERT_EQ(calibrations.size(), 1u);
+  EXPECT_TRUE(calibrations[0].rectified.is_calibrated);
+  EXPECT_EQ(received_.size(), 1u);
+}
+
 TEST_F(StereoDriverServiceTest, FollowsTheColourCameraOfADimosRobot) {
   config_.driver.source.kind = FrameSourceKind::kDimos;
   config_.driver.depth_camera.calibration.mount.parent_frame = "base_link";

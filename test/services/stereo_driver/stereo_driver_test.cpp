@@ -105,6 +105,17 @@ TEST_F(StereoDriverTest, PlaysARecordingByItsTimes) {
   EXPECT_EQ(driver.Next({33'500}).output->stereo.left.time.microseconds, 1'033'000);
 }
 
+TEST_F(StereoDriverTest, SaysThatARecordingIsPlayedLate) {
+  config_.pace = capture::Pace::kByTime;
+  StereoDriver driver(config_,
+                      std::make_unique<ScriptedFrames>(pair_, std::deque<std::int64_t>{0, 33'000}),
+                      KeepPairs::kNo);
+  driver.Next({0});
+  EXPECT_EQ(driver.pace_trouble(), "");
+  driver.Next({2'500'000});
+  EXPECT_THAT(driver.pace_trouble(), testing::HasSubstr("plays 2 s late"));
+}
+
 TEST_F(StereoDriverTest, TurnsADepthCamerasFrameIntoTheSame) {
   config_.source.kind = FrameSourceKind::kKinectChannel;
   StereoDriver driver(config_, nullptr, KeepPairs::kNo);
@@ -114,7 +125,9 @@ TEST_F(StereoDriverTest, TurnsADepthCamerasFrameIntoTheSame) {
   EXPECT_EQ(output.calibration->disparity_sigma_px, 0.0);
   EXPECT_EQ(output.calibration->depth_sigma_m_at_1m, 0.003);
   EXPECT_FALSE(output.calibration->rectified.is_calibrated);
-  EXPECT_THAT(driver.calibration_remark(), testing::HasSubstr("guessed"));
+  EXPECT_THAT(driver.calibration_remark(),
+              testing::HasSubstr("guessed from a horizontal field of view of 57 deg; set "
+                                 "depth_camera.calibration.file"));
 }
 
 class RegisteringDriverTest : public StereoDriverTest {

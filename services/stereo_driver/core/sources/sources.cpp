@@ -28,14 +28,42 @@ void CheckColourAndDepth(const FrameSourceConfig& config, config::Faults& faults
                  "must be folder for source.kind colour_and_depth");
 }
 
+struct TwoSources {
+  std::unique_ptr<capture::Source> left;
+  std::unique_ptr<capture::Source> right;
+};
+
+/// Throws ConfigError that names both when neither can be opened.
+TwoSources OpenBoth(const FrameSourceConfig& config, const capture::Clocks& clocks) {
+  std::string faults;
+  const auto open = [&](const capture::SourceConfig& source) {
+    try {
+      return capture::MakeSource(source, clocks);
+    } catch (const config::ConfigError& error) {
+      faults += (faults.empty() ? "" : "; ") + std::string(error.what());
+      return std::unique_ptr<capture::Source>();
+    }
+  };
+  TwoSources both;
+  both.left = open(config.left);
+  both.right = open(config.right);
+  if (!faults.empty()) throw config::ConfigError(faults);
+  return both;
+}
+
+std::unique_ptr<FrameSource> OpenTwoCameras(const FrameSourceConfig& config,
+                                            const capture::Clocks& clocks) {
+  TwoSources both = OpenBoth(config, clocks);
+  return std::make_unique<MatchedSource>(std::move(both.left), std::move(both.right),
+                                         config.max_skew_s, ComposePair);
+}
+
 std::unique_ptr<FrameSource> OpenOnce(const FrameSourceConfig& config,
                                       const capture::Clocks& clocks) {
   const double unit_mm = config.depth_unit_mm;
   switch (config.kind) {
     case FrameSourceKind::kTwoCameras:
-      return std::make_unique<MatchedSource>(capture::MakeSource(config.left, clocks),
-                                             capture::MakeSource(config.right, clocks),
-                                             config.max_skew_s, ComposePair);
+      return OpenTwoCameras(config, clocks);
     case FrameSourceKind::kSideBySide:
       return std::make_unique<SideBySideSource>(
           capture::MakeSource(config.left, clocks),
