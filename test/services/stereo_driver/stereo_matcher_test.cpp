@@ -151,7 +151,7 @@ TEST(StereoMatcher, RefusesPicturesOfAnotherSize) {
 TEST(MatchingFault, TellsPicturesTooSmallForTheBlocksOfTheMethod) {
   geometry::StereoCalibration calibration = SyntheticRig();
   StereoMatcherConfig config;
-  calibration.rectified = geometry::Scaled(calibration.rectified, 28, 24);
+  calibration.rectified = geometry::GuessCalibration(28, 24, 1.2);
   EXPECT_EQ(MatchingFault(config, calibration), "");
   config.disparity.method = Method::kBm;
   EXPECT_THAT(MatchingFault(config, calibration), testing::HasSubstr("28x24 are too small"));
@@ -160,10 +160,9 @@ TEST(MatchingFault, TellsPicturesTooSmallForTheBlocksOfTheMethod) {
 TEST(MatchingFault, TellsPicturesThatWouldTakeTooLong) {
   geometry::StereoCalibration calibration = SyntheticRig();
   StereoMatcherConfig config;
-  calibration.rectified = geometry::Scaled(calibration.rectified, 3840, 2160);
+  calibration.rectified = geometry::GuessCalibration(3840, 2160, 1.2);
   EXPECT_EQ(MatchingFault(config, calibration), "");
   config.match_size = Size::kFull;
-  config.nearest_m = 0.1;
   EXPECT_THAT(MatchingFault(config, calibration), testing::HasSubstr("too large"));
   config.nearest_m = 5.0;
   EXPECT_EQ(MatchingFault(config, calibration), "");
