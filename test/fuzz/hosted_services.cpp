@@ -21,9 +21,9 @@ using messages::ServiceStatus;
 
 namespace {
 
-// What asks for all answers.
-const std::vector<std::string> kAsked{"picture_jpeg", "hands",        "kinect",
-                                      "stereo_pair",  "dimos_colour", "dimos_depth"};
+// What asks for all answers; a robot's pictures wait for its lens.
+const std::vector<std::string> kAsked{"picture_jpeg", "hands",        "kinect",     "stereo_pair",
+                                      "dimos_info",   "dimos_colour", "dimos_depth"};
 const std::vector<std::string> kAnswers{"OBJECTS",        "HAND_TRACKS",     "GESTURE_STATE",
                                         "STEREO",         "STEREO_OF_PAIRS", "STEREO_OF_DIMOS",
                                         "CAMERA_OF_DIMOS"};
