@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/capture/opencv_file.h"
+#include "common/geometry/lens_limits.h"
 
 namespace deixis::capture {
 namespace {
@@ -28,6 +29,12 @@ CalibrationAnswer Guess(cv::Size size, double horizontal_fov_deg) {
   return {geometry::GuessCalibration(size.width, size.height, fov_rad),
           "not calibrated: guessed from a horizontal field of view of " + Text(horizontal_fov_deg) +
               " deg; set calibration.file"};
+}
+
+// One that comes over the bus must not stop its receiver.
+bool CanBeScaled(const CameraCalibration& lens, cv::Size size) {
+  return HasSameAspect(lens, size) &&
+         geometry::IsLens(geometry::Scaled(lens, size.width, size.height));
 }
 
 // Time, name and mount apart.
@@ -74,8 +81,13 @@ CalibrationAnswer AtSize(const LensFile& lens, cv::Size size) {
                               Text(size.width, size.height) +
                               ", another aspect; calibrate at this size or change the camera's");
   }
-  return {geometry::Scaled(calibration, size.width, size.height),
-          "calibration scaled from " + stated};
+  const CameraCalibration scaled = geometry::Scaled(calibration, size.width, size.height);
+  if (!geometry::IsLens(scaled)) {
+    throw config::ConfigError(lens.path + ": scaled from " + stated + " to " +
+                              Text(size.width, size.height) +
+                              " it is no lens that a camera has; calibrate again");
+  }
+  return {scaled, "calibration scaled from " + stated};
 }
 
 Calibration::Calibration(const CalibrationConfig& config) : config_(config) {
@@ -93,7 +105,7 @@ bool Calibration::UseOwn(const CameraCalibration& lens) {
 
 CalibrationAnswer Calibration::For(cv::Size size) const {
   if (lens_) return AtSize(*lens_, size);
-  if (own_ && HasSameAspect(*own_, size)) return AtSize({"the camera's own lens", *own_}, size);
+  if (own_ && CanBeScaled(*own_, size)) return AtSize({"the camera's own lens", *own_}, size);
   CalibrationAnswer answer = Guess(size, config_.horizontal_fov_deg);
   if (own_) {
     answer.remark += "; the camera's own lens is for " + std::to_string(own_->width_px) + "x" +

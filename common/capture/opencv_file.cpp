@@ -6,9 +6,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/geometry/lens_limits.h"
 
 namespace deixis::capture {
 namespace {
@@ -49,6 +51,12 @@ cv::FileStorage OpenStorage(const std::string& path, const std::string& cure) {
          "is not a YAML file of OpenCV (first line %YAML:1.0); write it with its calibration");
 }
 
+std::string Text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
 std::string Either(const std::string& key, const std::string& other_key) {
   return other_key.empty() ? key : key + " (or " + other_key + ")";
 }
@@ -62,9 +70,7 @@ void ReadPinhole(const OpenCvFile& file, const LensKeys& keys, CameraCalibration
   }
   calibration.focal_px = {matrix.at<double>(0, 0), matrix.at<double>(1, 1)};
   calibration.principal_point_px = {matrix.at<double>(0, 2), matrix.at<double>(1, 2)};
-  if (calibration.focal_px.minCoeff() <= 0.0) {
-    file.Fail(name + " has a focal length that is not positive; calibrate again");
-  }
+  RequirePinhole(file, name, calibration);
 }
 
 /// Those that OpenCV's models have: with thin prism 12, with tilt 14.
@@ -89,10 +95,11 @@ std::vector<double> FittedTo(std::size_t count, std::vector<double> values,
 void ReadDistortion(const OpenCvFile& file, const LensKeys& keys, CameraCalibration& calibration) {
   const cv::Mat matrix = file.Matrix(keys.distortion, keys.other_distortion);
   std::vector<double> values(matrix.begin<double>(), matrix.end<double>());
+  const std::string name = Either(keys.distortion, keys.other_distortion);
   const bool is_fisheye = file.IsFisheye();
   const bool is_vector = matrix.rows == 1 || matrix.cols == 1;
   if (!is_vector || !IsDistortionCount(values.size()) || (is_fisheye && values.size() != 4)) {
-    file.Fail(Either(keys.distortion, keys.other_distortion) +
+    file.Fail(name +
               " must be one row of 4, 5 or 8 values, or 12 or 14 that end in zeros (fisheye: 4)");
   }
   const bool is_plumb_bob = values.size() <= kPlumbBobValues;
@@ -103,6 +110,10 @@ void ReadDistortion(const OpenCvFile& file, const LensKeys& keys, CameraCalibrat
     values = FittedTo(is_plumb_bob ? kPlumbBobValues : kRationalValues, std::move(values), file);
   }
   calibration.distortion = std::move(values);
+  if (!geometry::IsDistortion(calibration.distortion_model, calibration.distortion)) {
+    file.Fail(name + " has a coefficient beyond " + Text(geometry::kLargestCoefficient) +
+              ", which no lens has; calibrate again");
+  }
 }
 
 }  // namespace
@@ -138,6 +149,22 @@ int OpenCvFile::PixelCount(const std::string& key) const {
   const int count = node.isInt() ? static_cast<int>(node) : 0;
   if (count <= 0) Fail("key '" + key + "' must be a positive whole number of pixels");
   return count;
+}
+
+void RequirePinhole(const OpenCvFile& file, const std::string& name,
+                    const CameraCalibration& lens) {
+  const Eigen::Vector2d& focal_px = lens.focal_px;
+  const Eigen::Vector2d& centre_px = lens.principal_point_px;
+  if (!geometry::IsFocalLength(focal_px)) {
+    file.Fail(name + " has the focal lengths " + Text(focal_px.x()) + " and " + Text(focal_px.y()) +
+              " px, which are not between " + Text(geometry::kLeastFocal_px) + " and " +
+              Text(geometry::kFarthestLens_px) + "; calibrate again");
+  }
+  if (!geometry::IsPrincipalPoint(centre_px)) {
+    file.Fail(name + " has the principal point " + Text(centre_px.x()) + ", " +
+              Text(centre_px.y()) + " px, which is further from the picture than " +
+              Text(geometry::kFarthestLens_px) + "; calibrate again");
+  }
 }
 
 CameraCalibration ReadLens(const OpenCvFile& file, const LensKeys& keys) {

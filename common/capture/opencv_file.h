@@ -41,6 +41,11 @@ struct LensKeys {
   std::string other_distortion = "D1";
 };
 
+/// Fails unless a camera can have what `lens` has, by geometry/lens_limits.h; `name` is the key
+/// that it was read from.
+void RequirePinhole(const OpenCvFile& file, const std::string& name,
+                    const geometry::CameraCalibration& lens);
+
 /// A lens without its image size (0). Its distortion has 4, 5 or 8 values, or 12 or 14 of which
 /// those of thin prism and tilt are zero; 4 of a fisheye. Throws ConfigError.
 geometry::CameraCalibration ReadLens(const OpenCvFile& file, const LensKeys& keys);

@@ -100,6 +100,24 @@ TEST_F(RigCalibrationTest, TakesTheRectificationOfTheFileWhenTold) {
   EXPECT_LT(filed.rectified.focal_px.x(), computed.rectified.focal_px.x());
 }
 
+TEST_F(RigCalibrationTest, RefusesAFiledProjectionThatNoReceiverTakes) {
+  const auto projections = [](const std::string& row) {
+    std::string text;
+    for (const std::string name : {"P1", "P2"}) {
+      text += name + ": !!opencv-matrix\n   rows: 3\n   cols: 4\n   dt: d\n   data: [ " + row +
+              (name == "P1" ? ", 0." : ", -33.6") + ", 0., 280., 119.5, 0., 0., 0., 1., 0. ]\n";
+    }
+    return text;
+  };
+  const std::string all = ExtrinsicsText(rig_);
+  RigCalibrationConfig config = Written(
+      IntrinsicsText(rig_), all.substr(0, all.find("P1:")) + projections("280., 0., 1e300"));
+  config.rectification = Rectification::kFromFile;
+  EXPECT_THAT(Reading(config),
+              ThrowsMessage<ConfigError>(
+                  AllOf(HasSubstr("extrinsics.yml: P1"), HasSubstr("principal point 1e+300"))));
+}
+
 TEST_F(RigCalibrationTest, RefusesSwappedCameras) {
   geometry::StereoCalibration swapped = rig_;
   std::swap(swapped.left, swapped.right);

@@ -4,6 +4,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
+#include "common/geometry/lens_limits.h"
 #include "services/stereo_driver/core/calibration/camera_matrix.h"
 #include "services/stereo_driver/core/calibration/rig_files.h"
 
@@ -57,6 +58,7 @@ FiledRectification ReadRectification(const OpenCvFile& file, double unit_m, doub
   filed.projection.path = file.path();
   filed.projection.calibration.focal_px = {p1(0, 0), p1(1, 1)};
   filed.projection.calibration.principal_point_px = {p1(0, 2), p1(1, 2)};
+  capture::RequirePinhole(file, "P1", filed.projection.calibration);
   return filed;
 }
 
@@ -84,7 +86,7 @@ void Rectify(StereoCalibration& calibration, double alpha) {
 void RequireUsableView(const StereoCalibration& calibration, const std::string& path) {
   const Eigen::Vector2d& focal_px = calibration.rectified.focal_px;
   const double widest = 20.0 * calibration.left.focal_px.maxCoeff();
-  if (!(focal_px.minCoeff() > 0.0) || !(focal_px.maxCoeff() < widest)) {
+  if (!geometry::IsLens(calibration.rectified) || !(focal_px.maxCoeff() < widest)) {
     throw config::ConfigError(path +
                               ": R and T leave no view that both cameras share; calibrate again");
   }

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <opencv2/core/eigen.hpp>
 
+#include "common/geometry/lens_limits.h"
+
 namespace deixis::stereo_driver {
 namespace {
 
 using capture::LensFile;
 using capture::OpenCvFile;
-
-constexpr double kRotationTolerance = 1e-3;
 
 /// The translation of the first camera's origin into the second camera's frame, judged.
 Eigen::Vector3d ReadTranslation(const OpenCvFile& file, double unit_m,
@@ -45,9 +45,7 @@ Eigen::MatrixXd ReadMatrix(const OpenCvFile& file, const std::string& key, int r
 
 Eigen::Matrix3d ReadRotation(const OpenCvFile& file, const std::string& key) {
   const Eigen::Matrix3d rotation = ReadMatrix(file, key, 3, 3);
-  const double error =
-      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (error > kRotationTolerance || rotation.determinant() < 0.0) {
+  if (!geometry::IsRotation(rotation)) {
     file.Fail(key + " is not a rotation; calibrate again or correct it");
   }
   return rotation;
