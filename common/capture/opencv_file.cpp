@@ -4,11 +4,16 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
+#include "common/capture/opencv_text.h"
+#include "common/capture/regular_file.h"
 #include "common/config/config.h"
 #include "common/geometry/lens_limits.h"
 
@@ -39,13 +44,26 @@ void RequireReadableFile(const std::string& path, const std::string& cure) {
   }
 }
 
-cv::FileStorage OpenStorage(const std::string& path, const std::string& cure) {
+std::string ReadText(const std::string& path, const std::string& cure) {
   RequireReadableFile(path, cure);
+  std::optional<std::string> text = ReadRegularFile(path, kLargestOpenCvFile);
+  if (!text) {
+    FailIn(path, "cannot be read to its end, or has more than " +
+                     std::to_string(kLargestOpenCvFile >> 20U) +
+                     " MB, as no calibration has; write it with OpenCV's calibration");
+  }
+  const std::string fault = OpenCvTextFault(*text);
+  if (!fault.empty()) FailIn(path, fault);
+  return std::move(*text);
+}
+
+cv::FileStorage OpenStorage(const std::string& path, const std::string& text) {
   try {
-    cv::FileStorage storage(path, cv::FileStorage::READ);
+    // From memory: the text that was looked at, whatever becomes of the file.
+    cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (storage.isOpened()) return storage;
-  } catch (const cv::Exception&) {
-    // The one message below serves both.
+  } catch (const std::exception&) {
+    // The one message below serves all; on some damage OpenCV throws what the library has thrown.
   }
   FailIn(path,
          "is not a YAML file of OpenCV (first line %YAML:1.0); write it with its calibration");
@@ -59,6 +77,15 @@ std::string Text(double value) {
 
 std::string Either(const std::string& key, const std::string& other_key) {
   return other_key.empty() ? key : key + " (or " + other_key + ")";
+}
+
+/// Of two dimensions; calibrations have no large ones.
+bool IsSmallMatrix(const cv::FileNode& node) {
+  constexpr int kLongestSide = 64;
+  const auto is_side = [](const cv::FileNode& side) {
+    return side.isInt() && static_cast<int>(side) > 0 && static_cast<int>(side) <= kLongestSide;
+  };
+  return node.isMap() && node["sizes"].empty() && is_side(node["rows"]) && is_side(node["cols"]);
 }
 
 void ReadPinhole(const OpenCvFile& file, const LensKeys& keys, CameraCalibration& calibration) {
@@ -119,7 +146,7 @@ void ReadDistortion(const OpenCvFile& file, const LensKeys& keys, CameraCalibrat
 }  // namespace
 
 OpenCvFile::OpenCvFile(const std::string& path, const std::string& cure)
-    : path_(path), storage_(OpenStorage(path, cure)) {}
+    : path_(path), text_(ReadText(path, cure)), storage_(OpenStorage(path, text_)) {}
 
 void OpenCvFile::Fail(const std::string& fault) const { FailIn(path_, fault); }
 
@@ -131,8 +158,9 @@ cv::Mat OpenCvFile::Matrix(const std::string& key, const std::string& other_key)
   }
   cv::Mat matrix;
   try {
-    storage_[found] >> matrix;
-  } catch (const cv::Exception&) {
+    // Others do not come this far: OpenCV crashes on some with many dimensions.
+    if (IsSmallMatrix(storage_[found])) storage_[found] >> matrix;
+  } catch (const std::exception&) {
     matrix.release();
   }
   if (matrix.empty() || matrix.channels() != 1) {

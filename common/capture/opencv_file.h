@@ -6,7 +6,8 @@
 
 namespace deixis::capture {
 
-/// A YAML file as OpenCV's calibration samples write it. All methods throw ConfigError naming file,
+/// A YAML file as OpenCV's calibration samples write it; it is looked at by opencv_text.h before
+/// OpenCV reads it, which hostile files crash. All methods throw ConfigError naming file,
 /// key and cure.
 class OpenCvFile {
  public:
@@ -30,6 +31,7 @@ class OpenCvFile {
 
  private:
   std::string path_;
+  std::string text_;
   cv::FileStorage storage_;
 };
 
