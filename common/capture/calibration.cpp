@@ -55,8 +55,9 @@ void CalibrationConfig::Check(config::Faults& faults) const {
 LensFile ReadLensFile(const std::string& path, const std::string& cure) {
   const OpenCvFile file(path, cure);
   LensFile lens{path, ReadLens(file, {})};
-  lens.calibration.width_px = file.PixelCount("image_width");
-  lens.calibration.height_px = file.PixelCount("image_height");
+  const cv::Size size = file.ImageSize();
+  lens.calibration.width_px = size.width;
+  lens.calibration.height_px = size.height;
   return lens;
 }
 

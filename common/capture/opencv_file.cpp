@@ -16,6 +16,7 @@
 #include "common/capture/regular_file.h"
 #include "common/config/config.h"
 #include "common/geometry/lens_limits.h"
+#include "common/images/picture_size.h"
 
 namespace deixis::capture {
 namespace {
@@ -86,6 +87,17 @@ bool IsSmallMatrix(const cv::FileNode& node) {
     return side.isInt() && static_cast<int>(side) > 0 && static_cast<int>(side) <= kLongestSide;
   };
   return node.isMap() && node["sizes"].empty() && is_side(node["rows"]) && is_side(node["cols"]);
+}
+
+/// Whether a number of more than nine digits is under `key`: OpenCV makes some int of it.
+bool HasLongNumber(const std::string& text, const std::string& key) {
+  constexpr std::size_t kMostDigits = 9;
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
+    const std::size_t begin = text.find_first_not_of("\": \t\r\n>+-0", at + key.size());
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", begin), text.size());
+    if (begin != std::string::npos && end - begin > kMostDigits) return true;
+  }
+  return false;
 }
 
 void ReadPinhole(const OpenCvFile& file, const LensKeys& keys, CameraCalibration& calibration) {
@@ -173,10 +185,25 @@ cv::Mat OpenCvFile::Matrix(const std::string& key, const std::string& other_key)
 
 int OpenCvFile::PixelCount(const std::string& key) const {
   const cv::FileNode node = storage_[key];
-  if (node.empty()) return 0;
-  const int count = node.isInt() ? static_cast<int>(node) : 0;
-  if (count <= 0) Fail("key '" + key + "' must be a positive whole number of pixels");
+  const int count = node.isInt() && !HasLongNumber(text_, key) ? static_cast<int>(node) : 0;
+  if (count < 1 || count > images::kLongestSide_px) {
+    Fail("key '" + key + "' must be a whole number of pixels from 1 to " +
+         std::to_string(images::kLongestSide_px) + "; correct it or calibrate again");
+  }
   return count;
+}
+
+cv::Size OpenCvFile::ImageSize() const {
+  if (!HasImageSize()) return {};
+  for (const std::string key : {"image_width", "image_height"}) {
+    if (!Has(key))
+      Fail("key '" + key + "' is missing beside the other one; add it or take both away");
+  }
+  const cv::Size size(PixelCount("image_width"), PixelCount("image_height"));
+  if (!images::IsPictureSize(size.width, size.height)) {
+    Fail("image_width and image_height make more pixels than any camera has; correct them");
+  }
+  return size;
 }
 
 void RequirePinhole(const OpenCvFile& file, const std::string& name,

@@ -21,8 +21,10 @@ class OpenCvFile {
   /// channel, CV_64F, all values finite.
   cv::Mat Matrix(const std::string& key, const std::string& other_key = "") const;
 
-  /// The positive whole number under `key`; 0 when it is not there.
-  int PixelCount(const std::string& key) const;
+  /// image_width and image_height, of a picture that can go through the system; 0x0 when neither is
+  /// there.
+  cv::Size ImageSize() const;
+  bool HasImageSize() const { return Has("image_width") || Has("image_height"); }
 
   /// Whether the lens was calibrated with OpenCV's fisheye model.
   bool IsFisheye() const { return static_cast<int>(storage_["fisheye_model"]) == 1; }
@@ -30,6 +32,8 @@ class OpenCvFile {
   [[noreturn]] void Fail(const std::string& fault) const;
 
  private:
+  int PixelCount(const std::string& key) const;
+
   std::string path_;
   std::string text_;
   cv::FileStorage storage_;

@@ -142,6 +142,40 @@ TEST_F(OpenCvFileTest, RefusesMatricesOfAbsurdSize) {
   }
 }
 
+TEST_F(OpenCvFileTest, RefusesSizesThatNoPictureHas) {
+  const auto sized = [this](const std::string& width, const std::string& height) {
+    return [this, width, height] {
+      const std::string text =
+          kHeader + "image_width: " + width + "\nimage_height: " + height + "\n";
+      OpenCvFile(folder_.Write("lens.yml", text).string(), "").ImageSize();
+    };
+  };
+  EXPECT_NO_THROW(sized("640", "480")());
+  for (const std::string side : {"0", "-5", "32767", "1000000000", "2147483647", "4294967936",
+                                 "99999999999999", "640.5", "abc", "[ 1 ]"}) {
+    EXPECT_THAT(sized(side, "480"),
+                ThrowsMessage<config::ConfigError>(
+                    AllOf(HasSubstr("lens.yml: key 'image_width'"), HasSubstr("1 to 32766"))))
+        << side;
+    EXPECT_THAT(sized("640", side), ThrowsMessage<config::ConfigError>(HasSubstr("'image_height'")))
+        << side;
+  }
+  EXPECT_THAT(sized("32766", "32766"),
+              ThrowsMessage<config::ConfigError>(HasSubstr("more pixels")));
+}
+
+TEST_F(OpenCvFileTest, SaysWhichHalfOfTheSizeIsMissing) {
+  const auto with = [this](const std::string& line) {
+    return OpenCvFile(folder_.Write("lens.yml", kHeader + "a: 1\n" + line).string(), "")
+        .ImageSize();
+  };
+  EXPECT_EQ(with(""), cv::Size());
+  EXPECT_THAT([&] { with("image_width: 640\n"); },
+              ThrowsMessage<config::ConfigError>(HasSubstr("'image_height' is missing")));
+  EXPECT_THAT([&] { with("image_height: 480\n"); },
+              ThrowsMessage<config::ConfigError>(HasSubstr("'image_width' is missing")));
+}
+
 TEST_F(OpenCvFileTest, RefusesWhatIsBinaryOrTooLarge) {
   EXPECT_THAT(Reading(kHonest + std::string(1, '\0')),
               ThrowsMessage<config::ConfigError>(HasSubstr("binary or compressed")));
@@ -191,7 +225,7 @@ TEST_F(OpenCvFileTest, SurvivesMutationsOfAnHonestFile) {
     const std::string text = Mutated(kHonest, random);
     try {
       const OpenCvFile file(folder_.Write("lens.yml", text).string(), "set it");
-      file.PixelCount("image_width");
+      file.ImageSize();
       ReadLens(file, {});
       ++read;
     } catch (const config::ConfigError&) {

@@ -64,6 +64,20 @@ TEST_F(RigCalibrationTest, CountsInBoardSquaresWhenTold) {
   EXPECT_NEAR(calibration.right_from_left.translation_m.x(), -0.12, 1e-9);
 }
 
+TEST_F(RigCalibrationTest, SaysHowLongAnAbsurdBaselineIs) {
+  RigCalibrationConfig config = Written(rig_);
+  config.unit_m = 1e18;
+  EXPECT_THAT(Reading(config), ThrowsMessage<ConfigError>(HasSubstr("baseline of 1.2")));
+  config.unit_m = 1e308;
+  EXPECT_THAT(Reading(config), ThrowsMessage<ConfigError>(HasSubstr("baseline of inf mm")));
+}
+
+TEST_F(RigCalibrationTest, RefusesHalfASizeInEitherFile) {
+  EXPECT_THAT(Reading(Written(IntrinsicsText(rig_) + "image_height: 240\n", ExtrinsicsText(rig_))),
+              ThrowsMessage<ConfigError>(
+                  AllOf(HasSubstr("intrinsics.yml"), HasSubstr("'image_width' is missing"))));
+}
+
 TEST_F(RigCalibrationTest, ScalesToPicturesOfTheSameAspect) {
   RigCalibrationConfig config = Written(rig_);
   config.width_px = 320;

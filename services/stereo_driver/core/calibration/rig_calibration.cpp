@@ -5,6 +5,7 @@
 #include <opencv2/core/eigen.hpp>
 
 #include "common/geometry/lens_limits.h"
+#include "common/images/picture_size.h"
 #include "services/stereo_driver/core/calibration/camera_matrix.h"
 #include "services/stereo_driver/core/calibration/rig_files.h"
 
@@ -64,8 +65,8 @@ FiledRectification ReadRectification(const OpenCvFile& file, double unit_m, doub
 
 /// The size that a file states, else that of the configuration; 0 when neither says.
 cv::Size StatedSize(const OpenCvFile& file, const RigCalibrationConfig& config) {
-  const cv::Size filed = FiledSize(file);
-  return filed.area() > 0 ? filed : cv::Size(config.width_px, config.height_px);
+  const cv::Size filed = file.ImageSize();
+  return file.HasImageSize() ? filed : cv::Size(config.width_px, config.height_px);
 }
 
 void Rectify(StereoCalibration& calibration, double alpha) {
@@ -101,6 +102,8 @@ void RigCalibrationConfig::Validate() const {
   faults.Require(unit_m > 0.0, "unit_m", "must be positive");
   faults.Require(width_px >= 0 && height_px >= 0, "width_px",
                  "must not be negative, nor height_px");
+  faults.Require(width_px <= images::kLongestSide_px && height_px <= images::kLongestSide_px,
+                 "width_px", "must be 32766 at most, and height_px");
   faults.Require((width_px == 0) == (height_px == 0), "height_px",
                  "must be given when width_px is, and only then");
   faults.Require(alpha >= 0.0 && alpha <= 1.0, "alpha", "must lie between 0 and 1");
@@ -119,8 +122,7 @@ RigCalibration::RigCalibration(RigCalibrationConfig config) : config_(std::move(
   }
   left_ = ReadLensOf(intrinsics, "1");
   right_ = ReadLensOf(intrinsics, "2");
-  const bool intrinsics_say = intrinsics.Has("image_width");
-  const cv::Size size = StatedSize(intrinsics_say ? intrinsics : extrinsics, config_);
+  const cv::Size size = StatedSize(intrinsics.HasImageSize() ? intrinsics : extrinsics, config_);
   SetSize(left_.calibration, size);
   SetSize(right_.calibration, size);
   right_from_left_ = ReadSecondFromFirst(extrinsics, config_.unit_m, kBaselineLimits);
