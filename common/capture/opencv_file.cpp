@@ -7,7 +7,6 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -47,15 +46,16 @@ void RequireReadableFile(const std::string& path, const std::string& cure) {
 
 std::string ReadText(const std::string& path, const std::string& cure) {
   RequireReadableFile(path, cure);
-  std::optional<std::string> text = ReadRegularFile(path, kLargestOpenCvFile);
-  if (!text) {
+  const auto bytes = ReadRegularFile(path, kLargestOpenCvFile);
+  if (!bytes) {
     FailIn(path, "cannot be read to its end, or has more than " +
                      std::to_string(kLargestOpenCvFile >> 20U) +
                      " MB, as no calibration has; write it with OpenCV's calibration");
   }
-  const std::string fault = OpenCvTextFault(*text);
+  std::string text(bytes->begin(), bytes->end());
+  const std::string fault = OpenCvTextFault(text);
   if (!fault.empty()) FailIn(path, fault);
-  return std::move(*text);
+  return text;
 }
 
 cv::FileStorage OpenStorage(const std::string& path, const std::string& text) {
