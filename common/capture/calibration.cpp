@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/capture/opencv_file.h"
+#include "common/geometry/lens_limits.h"
 
 namespace deixis::capture {
 namespace {
@@ -41,6 +42,12 @@ LensFile ReadNamed(const CalibrationConfig& config) {
   return ReadLensFile(path, cure);
 }
 
+// One that comes over the bus must not stop its receiver.
+bool CanBeScaled(const CameraCalibration& lens, cv::Size size) {
+  return HasSameAspect(lens, size) &&
+         geometry::IsLens(geometry::Scaled(lens, size.width, size.height));
+}
+
 // Time, name and mount apart.
 bool IsSameLens(const CameraCalibration& a, const CameraCalibration& b) {
   return a.width_px == b.width_px && a.height_px == b.height_px &&
@@ -59,8 +66,9 @@ void CalibrationConfig::Check(config::Faults& faults) const {
 LensFile ReadLensFile(const std::string& path, const std::string& cure) {
   const OpenCvFile file(path, cure);
   LensFile lens{path, ReadLens(file, {})};
-  lens.calibration.width_px = file.PixelCount("image_width");
-  lens.calibration.height_px = file.PixelCount("image_height");
+  const cv::Size size = file.ImageSize();
+  lens.calibration.width_px = size.width;
+  lens.calibration.height_px = size.height;
   return lens;
 }
 
@@ -85,8 +93,13 @@ CalibrationAnswer AtSize(const LensFile& lens, cv::Size size) {
                               Text(size.width, size.height) +
                               ", another aspect; calibrate at this size or change the camera's");
   }
-  return {geometry::Scaled(calibration, size.width, size.height),
-          "calibration scaled from " + stated};
+  const CameraCalibration scaled = geometry::Scaled(calibration, size.width, size.height);
+  if (!geometry::IsLens(scaled)) {
+    throw config::ConfigError(lens.path + ": scaled from " + stated + " to " +
+                              Text(size.width, size.height) +
+                              " it is no lens that a camera has; calibrate again");
+  }
+  return {scaled, "calibration scaled from " + stated};
 }
 
 Calibration::Calibration(const CalibrationConfig& config) : config_(config) {
@@ -104,7 +117,7 @@ bool Calibration::UseOwn(const CameraCalibration& lens) {
 
 CalibrationAnswer Calibration::For(cv::Size size) const {
   if (lens_) return AtSize(*lens_, size);
-  if (own_ && HasSameAspect(*own_, size)) return AtSize({"the camera's own lens", *own_}, size);
+  if (own_ && CanBeScaled(*own_, size)) return AtSize({"the camera's own lens", *own_}, size);
   CalibrationAnswer answer = Guess(size, config_);
   if (own_) {
     answer.remark += "; the camera's own lens is for " + std::to_string(own_->width_px) + "x" +

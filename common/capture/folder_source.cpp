@@ -111,8 +111,21 @@ TimedFile ParseTimedFile(const std::string& line, const fs::path& file, int numb
   FailAt(file, number, "time_s is not a number of seconds (1e11 at most)");
 }
 
-std::vector<TimedFile> ReadTimes(const fs::path& file) {
+std::ifstream OpenTimes(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) {
+    throw config::ConfigError(
+        file.string() +
+        ": is no regular file (but a folder, pipe or device); make it one with "
+        "the lines file,time_s, or take it away and set rate_hz");
+  }
   std::ifstream stream(file);
+  if (!stream) throw config::ConfigError(file.string() + ": cannot be read; check its rights");
+  return stream;
+}
+
+std::vector<TimedFile> ReadTimes(const fs::path& file) {
+  std::ifstream stream = OpenTimes(file);
   std::vector<TimedFile> rows;
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {

@@ -4,11 +4,18 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
+#include <utility>
 #include <vector>
 
+#include "common/capture/opencv_text.h"
+#include "common/capture/regular_file.h"
 #include "common/config/config.h"
+#include "common/geometry/lens_limits.h"
+#include "common/images/picture_size.h"
 
 namespace deixis::capture {
 namespace {
@@ -37,20 +44,60 @@ void RequireReadableFile(const std::string& path, const std::string& cure) {
   }
 }
 
-cv::FileStorage OpenStorage(const std::string& path, const std::string& cure) {
+std::string ReadText(const std::string& path, const std::string& cure) {
   RequireReadableFile(path, cure);
+  const auto bytes = ReadRegularFile(path, kLargestOpenCvFile);
+  if (!bytes) {
+    FailIn(path, "cannot be read to its end, or has more than " +
+                     std::to_string(kLargestOpenCvFile >> 20U) +
+                     " MB, as no calibration has; write it with OpenCV's calibration");
+  }
+  std::string text(bytes->begin(), bytes->end());
+  const std::string fault = OpenCvTextFault(text);
+  if (!fault.empty()) FailIn(path, fault);
+  return text;
+}
+
+cv::FileStorage OpenStorage(const std::string& path, const std::string& text) {
   try {
-    cv::FileStorage storage(path, cv::FileStorage::READ);
+    // From memory: the text that was looked at, whatever becomes of the file.
+    cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (storage.isOpened()) return storage;
-  } catch (const cv::Exception&) {
-    // The one message below serves both.
+  } catch (const std::exception&) {
+    // The one message below serves all; on some damage OpenCV throws what the library has thrown.
   }
   FailIn(path,
          "is not a YAML file of OpenCV (first line %YAML:1.0); write it with its calibration");
 }
 
+std::string Text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
 std::string Either(const std::string& key, const std::string& other_key) {
   return other_key.empty() ? key : key + " (or " + other_key + ")";
+}
+
+/// Of two dimensions; calibrations have no large ones.
+bool IsSmallMatrix(const cv::FileNode& node) {
+  constexpr int kLongestSide = 64;
+  const auto is_side = [](const cv::FileNode& side) {
+    return side.isInt() && static_cast<int>(side) > 0 && static_cast<int>(side) <= kLongestSide;
+  };
+  return node.isMap() && node["sizes"].empty() && is_side(node["rows"]) && is_side(node["cols"]);
+}
+
+/// Whether a number of more than nine digits is under `key`: OpenCV makes some int of it.
+bool HasLongNumber(const std::string& text, const std::string& key) {
+  constexpr std::size_t kMostDigits = 9;
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
+    const std::size_t begin = text.find_first_not_of("\": \t\r\n>+-0", at + key.size());
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", begin), text.size());
+    if (begin != std::string::npos && end - begin > kMostDigits) return true;
+  }
+  return false;
 }
 
 void ReadPinhole(const OpenCvFile& file, const LensKeys& keys, CameraCalibration& calibration) {
@@ -62,9 +109,7 @@ void ReadPinhole(const OpenCvFile& file, const LensKeys& keys, CameraCalibration
   }
   calibration.focal_px = {matrix.at<double>(0, 0), matrix.at<double>(1, 1)};
   calibration.principal_point_px = {matrix.at<double>(0, 2), matrix.at<double>(1, 2)};
-  if (calibration.focal_px.minCoeff() <= 0.0) {
-    file.Fail(name + " has a focal length that is not positive; calibrate again");
-  }
+  RequirePinhole(file, name, calibration);
 }
 
 /// Those that OpenCV's models have: with thin prism 12, with tilt 14.
@@ -89,10 +134,11 @@ std::vector<double> FittedTo(std::size_t count, std::vector<double> values,
 void ReadDistortion(const OpenCvFile& file, const LensKeys& keys, CameraCalibration& calibration) {
   const cv::Mat matrix = file.Matrix(keys.distortion, keys.other_distortion);
   std::vector<double> values(matrix.begin<double>(), matrix.end<double>());
+  const std::string name = Either(keys.distortion, keys.other_distortion);
   const bool is_fisheye = file.IsFisheye();
   const bool is_vector = matrix.rows == 1 || matrix.cols == 1;
   if (!is_vector || !IsDistortionCount(values.size()) || (is_fisheye && values.size() != 4)) {
-    file.Fail(Either(keys.distortion, keys.other_distortion) +
+    file.Fail(name +
               " must be one row of 4, 5 or 8 values, or 12 or 14 that end in zeros (fisheye: 4)");
   }
   const bool is_plumb_bob = values.size() <= kPlumbBobValues;
@@ -103,12 +149,16 @@ void ReadDistortion(const OpenCvFile& file, const LensKeys& keys, CameraCalibrat
     values = FittedTo(is_plumb_bob ? kPlumbBobValues : kRationalValues, std::move(values), file);
   }
   calibration.distortion = std::move(values);
+  if (!geometry::IsDistortion(calibration.distortion_model, calibration.distortion)) {
+    file.Fail(name + " has a coefficient beyond " + Text(geometry::kLargestCoefficient) +
+              ", which no lens has; calibrate again");
+  }
 }
 
 }  // namespace
 
 OpenCvFile::OpenCvFile(const std::string& path, const std::string& cure)
-    : path_(path), storage_(OpenStorage(path, cure)) {}
+    : path_(path), text_(ReadText(path, cure)), storage_(OpenStorage(path, text_)) {}
 
 void OpenCvFile::Fail(const std::string& fault) const { FailIn(path_, fault); }
 
@@ -120,8 +170,9 @@ cv::Mat OpenCvFile::Matrix(const std::string& key, const std::string& other_key)
   }
   cv::Mat matrix;
   try {
-    storage_[found] >> matrix;
-  } catch (const cv::Exception&) {
+    // Others do not come this far: OpenCV crashes on some with many dimensions.
+    if (IsSmallMatrix(storage_[found])) storage_[found] >> matrix;
+  } catch (const std::exception&) {
     matrix.release();
   }
   if (matrix.empty() || matrix.channels() != 1) {
@@ -134,10 +185,41 @@ cv::Mat OpenCvFile::Matrix(const std::string& key, const std::string& other_key)
 
 int OpenCvFile::PixelCount(const std::string& key) const {
   const cv::FileNode node = storage_[key];
-  if (node.empty()) return 0;
-  const int count = node.isInt() ? static_cast<int>(node) : 0;
-  if (count <= 0) Fail("key '" + key + "' must be a positive whole number of pixels");
+  const int count = node.isInt() && !HasLongNumber(text_, key) ? static_cast<int>(node) : 0;
+  if (count < 1 || count > images::kLongestSide_px) {
+    Fail("key '" + key + "' must be a whole number of pixels from 1 to " +
+         std::to_string(images::kLongestSide_px) + "; correct it or calibrate again");
+  }
   return count;
+}
+
+cv::Size OpenCvFile::ImageSize() const {
+  if (!HasImageSize()) return {};
+  for (const std::string key : {"image_width", "image_height"}) {
+    if (!Has(key))
+      Fail("key '" + key + "' is missing beside the other one; add it or take both away");
+  }
+  const cv::Size size(PixelCount("image_width"), PixelCount("image_height"));
+  if (!images::IsPictureSize(size.width, size.height)) {
+    Fail("image_width and image_height make more pixels than any camera has; correct them");
+  }
+  return size;
+}
+
+void RequirePinhole(const OpenCvFile& file, const std::string& name,
+                    const CameraCalibration& lens) {
+  const Eigen::Vector2d& focal_px = lens.focal_px;
+  const Eigen::Vector2d& centre_px = lens.principal_point_px;
+  if (!geometry::IsFocalLength(focal_px)) {
+    file.Fail(name + " has the focal lengths " + Text(focal_px.x()) + " and " + Text(focal_px.y()) +
+              " px, which are not between " + Text(geometry::kLeastFocal_px) + " and " +
+              Text(geometry::kFarthestLens_px) + "; calibrate again");
+  }
+  if (!geometry::IsPrincipalPoint(centre_px)) {
+    file.Fail(name + " has the principal point " + Text(centre_px.x()) + ", " +
+              Text(centre_px.y()) + " px, which is further from the picture than " +
+              Text(geometry::kFarthestLens_px) + "; calibrate again");
+  }
 }
 
 CameraCalibration ReadLens(const OpenCvFile& file, const LensKeys& keys) {

@@ -1,14 +1,13 @@
 #include "common/capture/picture_file.h"
 
-#include <fstream>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
+
+#include "common/capture/regular_file.h"
 
 namespace deixis::capture {
 
 std::vector<std::uint8_t> ReadBytes(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return ReadRegularFile(file, kLargestPictureFile).value_or(std::vector<std::uint8_t>());
 }
 
 cv::Mat DecodePicture(const std::vector<std::uint8_t>& bytes, int flags) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
@@ -6,7 +7,11 @@
 
 namespace deixis::capture {
 
-/// The file as it is; empty when it cannot be read.
+/// No picture's file is larger: that is more than all its pixels.
+inline constexpr std::size_t kLargestPictureFile = std::size_t{256} * 1024 * 1024;
+
+/// The file as it is; empty when it cannot be read, is no regular file (a folder, pipe or device)
+/// or larger than any picture's.
 std::vector<std::uint8_t> ReadBytes(const std::filesystem::path& file);
 
 /// What a picture file shows; `flags` are cv::ImreadModes. Empty when it cannot be decoded,

@@ -1,7 +1,10 @@
 #include "common/geometry/camera_calibration.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "common/geometry/lens_limits.h"
 
 namespace deixis::geometry {
 
@@ -13,7 +16,8 @@ CameraCalibration GuessCalibration(int width_px, int height_px, double horizonta
   CameraCalibration calibration;
   calibration.width_px = width_px;
   calibration.height_px = height_px;
-  const double focal_px = 0.5 * width_px / std::tan(0.5 * horizontal_fov_rad);
+  const double focal_px = std::clamp(0.5 * width_px / std::tan(0.5 * horizontal_fov_rad),
+                                     kLeastFocal_px, kFarthestLens_px);
   calibration.focal_px = {focal_px, focal_px};
   calibration.principal_point_px = {0.5 * (width_px - 1), 0.5 * (height_px - 1)};
   return calibration;

@@ -30,7 +30,8 @@ struct CameraCalibration {
 };
 
 /// A camera without distortion whose horizontal field of view is `horizontal_fov_rad`; marked as
-/// not calibrated. Throws std::invalid_argument on a size or an angle that no camera has.
+/// not calibrated; its focal length stays in what lens_limits.h allows. Throws
+/// std::invalid_argument on a size or an angle that no camera has.
 CameraCalibration GuessCalibration(int width_px, int height_px, double horizontal_fov_rad);
 
 /// The same camera for the same view in pictures of another size.

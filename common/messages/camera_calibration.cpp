@@ -1,10 +1,10 @@
 #include "common/messages/camera_calibration.h"
 
-#include <Eigen/LU>
 #include <array>
 #include <deixis/stereo_calibration_t.hpp>
 #include <utility>
 
+#include "common/geometry/lens_limits.h"
 #include "common/images/picture_size.h"
 #include "common/messages/dimos_parts.h"
 #include "common/messages/geometry_parts.h"
@@ -37,28 +37,6 @@ std::string FromModel(DistortionModel wanted) {
   throw std::logic_error("distortion model without a name");
 }
 
-constexpr double kRotationTolerance = 1e-3;
-
-bool IsRotation(const Eigen::Matrix3d& matrix) {
-  return (matrix * matrix.transpose()).isIdentity(kRotationTolerance) && matrix.determinant() > 0.0;
-}
-
-// By lcmtypes/deixis_camera_calibration_t.lcm; OpenCV takes the shorter forms, too.
-bool HasAllCoefficients(const CameraCalibration& calibration) {
-  const std::size_t n = calibration.distortion.size();
-  switch (calibration.distortion_model) {
-    case DistortionModel::kNone:
-      return n == 0;
-    case DistortionModel::kPlumbBob:
-      return n == 4 || n == 5;
-    case DistortionModel::kRational:
-      return n == 8 || n == 12 || n == 14;
-    case DistortionModel::kFisheye:
-      return n == 4;
-  }
-  return false;
-}
-
 CameraCalibration ToPublishedCamera(const stereo_calibration_t& message) {
   CameraCalibration calibration = ToCameraCalibration(message.rectified);
   calibration.time = ToTimestamp(message.utime);
@@ -78,8 +56,7 @@ void FromMount(const CameraCalibration& calibration, camera_calibration_t& messa
 
 void RequireSensible(const CameraCalibration& calibration) {
   const bool is_sensible = images::IsPictureSize(calibration.width_px, calibration.height_px) &&
-                           calibration.focal_px.minCoeff() >= 1.0 &&
-                           HasAllCoefficients(calibration) && IsRotation(calibration.rectification);
+                           geometry::IsLens(calibration);
   if (!is_sensible) throw Rejected("out_of_range");
 }
 
@@ -92,10 +69,11 @@ CameraCalibration ToCameraCalibration(const camera_calibration_t& message) {
   calibration.height_px = message.height_px;
   calibration.distortion_model = ToModel(message.distortion_model);
   for (const double value : message.distortion)
-    calibration.distortion.push_back(Within(value, kLargestCoefficient));
-  calibration.focal_px = ToPixels<2>(message.focal_px);
-  calibration.principal_point_px = ToPixels<2>(message.principal_point_px);
-  const auto rectification = ToVector<9>(message.rectification, 1.0 + kRotationTolerance);
+    calibration.distortion.push_back(Within(value, geometry::kLargestCoefficient));
+  calibration.focal_px = ToVector<2>(message.focal_px, geometry::kFarthestLens_px);
+  calibration.principal_point_px =
+      ToVector<2>(message.principal_point_px, geometry::kFarthestLens_px);
+  const auto rectification = ToVector<9>(message.rectification, 1.0 + geometry::kRotationTolerance);
   calibration.rectification = Eigen::Map<const RowMajor3d>(rectification.data());
   calibration.is_calibrated = message.is_calibrated != 0;
   if (message.has_mount != 0) {

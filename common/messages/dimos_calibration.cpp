@@ -3,6 +3,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/geometry/lens_limits.h"
 #include "common/messages/dimos_parts.h"
 #include "common/messages/geometry_parts.h"
 
@@ -45,7 +46,7 @@ void RequireWholePicture(const CameraInfo& message) {
 }
 
 void RequirePinhole(const double (&k)[9]) {
-  const auto values = ToPixels<9>(k);
+  const auto values = ToVector<9>(k, geometry::kFarthestLens_px);
   const bool is_pinhole = values[1] == 0.0 && values[3] == 0.0 && values[6] == 0.0 &&
                           values[7] == 0.0 && values[8] == 1.0;
   if (!is_pinhole) throw Rejected("out_of_range");
@@ -71,7 +72,7 @@ CameraCalibration ToCameraCalibration(const CameraInfo& message) {
   calibration.height_px = message.height;
   calibration.distortion_model = ToModel(message);
   for (const double value : message.D) {
-    calibration.distortion.push_back(Within(value, kLargestCoefficient));
+    calibration.distortion.push_back(Within(value, geometry::kLargestCoefficient));
   }
   calibration.focal_px = {message.K[0], message.K[4]};
   calibration.principal_point_px = {message.K[2], message.K[5]};

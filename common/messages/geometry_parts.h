@@ -36,10 +36,7 @@ inline void FromTransform(const geometry::RigidTransform& transform, double (&tr
   FromVector(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()), rotation_wxyz);
 }
 
-/// Of a distortion coefficient: far beyond that of any lens.
-inline constexpr double kLargestCoefficient = 1e6;
-
-/// Throws Rejected("out_of_range") unless a camera can have that lens.
+/// Throws Rejected("out_of_range") unless a camera can have that lens (geometry::IsLens) and size.
 void RequireSensible(const geometry::CameraCalibration& calibration);
 
 /// A lens as it lies in a message; its sequence number is not looked at.

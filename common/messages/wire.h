@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "common/messages/codec.h"
-#include "common/messages/utf8.h"
 #include "common/messages/wire_check.h"
+#include "common/text/utf8.h"
 
 namespace deixis::messages {
 
@@ -80,11 +80,10 @@ inline std::int64_t Count(std::int64_t value) {
 }
 
 /// A name, label or sentence. Results repeat them, so what came in must be fit to go out.
-inline const std::string& Text(const std::string& text) {
-  if (text.size() > kLongestText) throw Rejected("text_too_long");
-  const Bytes bytes{reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-  if (!IsText(bytes)) throw Rejected("bad_string");
-  return text;
+inline const std::string& Text(const std::string& sent) {
+  if (sent.size() > kLongestText) throw Rejected("text_too_long");
+  if (!text::IsUtf8(sent)) throw Rejected("bad_string");
+  return sent;
 }
 
 /// Going out: a sentence that grew too long, cut between two characters (UTF-8) and marked.

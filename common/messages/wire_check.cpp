@@ -4,9 +4,10 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <string_view>
 
-#include "common/messages/utf8.h"
 #include "common/messages/wire_layout.h"
+#include "common/text/utf8.h"
 
 namespace deixis::messages {
 namespace {
@@ -92,7 +93,8 @@ class Walk {
     if (size <= 0) return WireFault::kBadString;
     const auto length = static_cast<std::size_t>(size);
     if (length > left_) return WireFault::kTruncated;
-    const bool is_good = at_[length - 1] == 0 && IsText({at_, length - 1});
+    const std::string_view content(reinterpret_cast<const char*>(at_), length - 1);
+    const bool is_good = at_[length - 1] == 0 && text::IsUtf8(content);
     Skip(length);
     return is_good ? WireFault::kNone : WireFault::kBadString;
   }

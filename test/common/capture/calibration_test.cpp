@@ -127,6 +127,42 @@ TEST_F(CalibrationTest, RefusesMatricesOfTheWrongSize) {
               ThrowsMessage<config::ConfigError>(HasSubstr("4, 5 or 8 values")));
 }
 
+TEST_F(CalibrationTest, RefusesLensesThatNoReceiverTakes) {
+  for (const std::string number : {"1e39", "1e300", "1e308", "1e-308", "0.", "-500."}) {
+    EXPECT_THAT(
+        Reading(kHeader + Matrix("M1", 3, 3, number + ", 0., 319.5, 0., 510., 239.5, 0., 0., 1.") +
+                Matrix("D1", 1, 5, kFive)),
+        ThrowsMessage<config::ConfigError>(AllOf(HasSubstr("lens.yaml: "), HasSubstr("M1"),
+                                                 HasSubstr("focal"), HasSubstr("calibrate again"))))
+        << number;
+  }
+  EXPECT_THAT(Reading(kHeader + Matrix("M1", 3, 3, "500., 0., 1e300, 0., 510., 239.5, 0., 0., 1.") +
+                      Matrix("D1", 1, 5, kFive)),
+              ThrowsMessage<config::ConfigError>(HasSubstr("principal point 1e+300")));
+  EXPECT_THAT(
+      Reading(kHeader + Matrix("M1", 3, 3, kPinhole) + Matrix("D1", 1, 5, "1e308, 0., 0., 0., 0.")),
+      ThrowsMessage<config::ConfigError>(AllOf(HasSubstr("D1"), HasSubstr("coefficient"))));
+}
+
+TEST_F(CalibrationTest, RefusesALensThatScalingMakesNone) {
+  const Calibration calibration =
+      From(kHeader + kSize + Matrix("M1", 3, 3, "1., 0., 319.5, 0., 510., 239.5, 0., 0., 1.") +
+           Matrix("D1", 1, 5, kFive));
+  EXPECT_THAT(
+      [&] {
+        calibration.For({320, 240});
+      },
+      ThrowsMessage<config::ConfigError>(AllOf(HasSubstr("lens.yaml"), HasSubstr("320x240"))));
+}
+
+TEST_F(CalibrationTest, GuessesWhereScalingMakesTheCamerasOwnLensNone) {
+  Calibration calibration{CalibrationConfig{}};
+  geometry::CameraCalibration own = geometry::GuessCalibration(640, 480, 1.0);
+  own.focal_px.x() = 1.0;
+  calibration.UseOwn(own);
+  EXPECT_THAT(calibration.For({320, 240}).remark, HasSubstr("guessed"));
+}
+
 TEST_F(CalibrationTest, RefusesWhatIsNoMatrix) {
   EXPECT_THAT(Reading(kHeader + "camera_matrix: 5\n" + Matrix("D1", 1, 5, kFive)),
               ThrowsMessage<config::ConfigError>(HasSubstr("not an opencv-matrix")));

@@ -1,9 +1,11 @@
 #include "common/capture/folder_source.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/capture/picture_file.h"
 #include "test/support/temporary_folder.h"
 
 namespace deixis::capture {
@@ -79,6 +81,41 @@ TEST_F(FolderSourceTest, KeepsTheTimesOfItsTable) {
   EXPECT_THAT(Greys(greys), ElementsAre(20, 10));
   FolderSource times(Config(0.0));
   EXPECT_THAT(Times(times), ElementsAre(0, 250'000));
+}
+
+TEST_F(FolderSourceTest, PassesOverRowsThatNameNoRegularFile) {
+  AddPicture("a.png", 10);
+  AddPicture("b.png", 20);
+  std::filesystem::create_directory(folder_.path() / "folder.png");
+  ASSERT_EQ(mkfifo((folder_.path() / "pipe.png").c_str(), 0600), 0);
+  folder_.Write(
+      "times.csv",
+      "file,time_s\na.png,0\nfolder.png,1\n/dev/zero,2\npipe.png,3\nnone.png,4\nb.png,5\n");
+  FolderSource source(Config(0.0));
+  EXPECT_THAT(Greys(source), ElementsAre(10, 20));
+  EXPECT_EQ(source.status().corrupt, 4);
+  EXPECT_THAT(source.status().last_corrupt, HasSubstr("none.png"));
+}
+
+TEST_F(FolderSourceTest, PassesOverFilesThatAreLargerThanAnyPicture) {
+  AddPicture("a.png", 10);
+  AddPicture("b.png", 20);
+  std::filesystem::resize_file(folder_.path() / "a.png",
+                               kLargestPictureFile + 1);  // no blocks on disk
+  FolderSource source(Config(10.0));
+  EXPECT_THAT(Greys(source), ElementsAre(20));
+  EXPECT_EQ(source.status().corrupt, 1);
+}
+
+TEST_F(FolderSourceTest, NamesATableThatIsNoRegularFile) {
+  AddPicture("a.png", 10);
+  const auto opening = [this] { FolderSource source(Config(10.0)); };
+  const auto fault = ThrowsMessage<config::ConfigError>(HasSubstr("times.csv: is no regular file"));
+  std::filesystem::create_directory(folder_.path() / "times.csv");
+  EXPECT_THAT(opening, fault);
+  std::filesystem::remove(folder_.path() / "times.csv");
+  ASSERT_EQ(mkfifo((folder_.path() / "times.csv").c_str(), 0600), 0);
+  EXPECT_THAT(opening, fault);
 }
 
 TEST_F(FolderSourceTest, LetsARateReplaceTheTable) {

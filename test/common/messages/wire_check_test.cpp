@@ -11,8 +11,8 @@
 #include <deixis/message_types.hpp>
 #include <map>
 
-#include "common/messages/utf8.h"
 #include "common/messages/wire.h"
+#include "common/text/utf8.h"
 #include "test/support/message_properties.h"
 #include "test/support/random_message.h"
 
@@ -196,9 +196,7 @@ TEST(Utf8, IsTextByTheTableOfTheStandard) {
                                      "\xF5\x80\x80\x80",
                                      "\xF1\x80\x80",
                                      "\xFF"};
-  const auto is_text = [](const std::string& text) {
-    return IsText({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  };
+  const auto is_text = [](const std::string& content) { return text::IsUtf8(content); };
   EXPECT_THAT(good, testing::Each(testing::ResultOf(is_text, true)));
   EXPECT_THAT(bad, testing::Each(testing::ResultOf(is_text, false)));
 }

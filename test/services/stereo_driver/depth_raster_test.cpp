@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <opencv2/core.hpp>
 
@@ -77,6 +78,25 @@ TEST_F(DepthRasterTest, FillsNothingWithWhatIsNoArea) {
   raster_.Fill({{{3, 3, 700}, {5, 3, 700}, {4, 3, 700}, {9, 3, 700}}});
   raster_.Fill({{{nan, 3, 700}, {5, nan, 700}, {nan, 7, 700}, {nan, nan, 700}}});
   EXPECT_EQ(Filled(), 0);
+}
+
+TEST(SpanOf, IsEmptyWhereACornerIsNotFinite) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinite = std::numeric_limits<float>::infinity();
+  const auto length = [](float a, float b, float c, float d) {
+    const Span span = SpanOf(a, b, c, d, 639.0F);
+    return std::max(0, span.last - span.first + 1);
+  };
+  EXPECT_EQ(length(2.0F, 5.0F, 2.0F, 5.0F), 4);
+  EXPECT_EQ(length(-1e30F, 1e30F, 0.0F, 0.0F), 640);
+  EXPECT_EQ(length(nan, nan, nan, nan), 0);
+  EXPECT_EQ(length(-infinite, infinite, infinite, -infinite), 0);
+  for (const float bad : {nan, infinite, -infinite}) {
+    EXPECT_EQ(length(bad, 5.0F, 2.0F, 5.0F), 0);
+    EXPECT_EQ(length(2.0F, bad, 2.0F, 5.0F), 0);
+    EXPECT_EQ(length(2.0F, 5.0F, bad, 5.0F), 0);
+    EXPECT_EQ(length(2.0F, 5.0F, 2.0F, bad), 0);
+  }
 }
 
 TEST_F(DepthRasterTest, KeepsTheFarthestThatSixteenBitsSay) {

@@ -64,6 +64,20 @@ TEST_F(RigCalibrationTest, CountsInBoardSquaresWhenTold) {
   EXPECT_NEAR(calibration.right_from_left.translation_m.x(), -0.12, 1e-9);
 }
 
+TEST_F(RigCalibrationTest, SaysHowLongAnAbsurdBaselineIs) {
+  RigCalibrationConfig config = Written(rig_);
+  config.unit_m = 1e18;
+  EXPECT_THAT(Reading(config), ThrowsMessage<ConfigError>(HasSubstr("baseline of 1.2")));
+  config.unit_m = 1e308;
+  EXPECT_THAT(Reading(config), ThrowsMessage<ConfigError>(HasSubstr("baseline of inf mm")));
+}
+
+TEST_F(RigCalibrationTest, RefusesHalfASizeInEitherFile) {
+  EXPECT_THAT(Reading(Written(IntrinsicsText(rig_) + "image_height: 240\n", ExtrinsicsText(rig_))),
+              ThrowsMessage<ConfigError>(
+                  AllOf(HasSubstr("intrinsics.yml"), HasSubstr("'image_width' is missing"))));
+}
+
 TEST_F(RigCalibrationTest, ScalesToPicturesOfTheSameAspect) {
   RigCalibrationConfig config = Written(rig_);
   config.width_px = 320;
@@ -98,6 +112,24 @@ TEST_F(RigCalibrationTest, TakesTheRectificationOfTheFileWhenTold) {
   EXPECT_TRUE(filed.left.rectification.isApprox(computed.left.rectification, 1e-9));
   // The file was written with alpha 1: it shows all, smaller.
   EXPECT_LT(filed.rectified.focal_px.x(), computed.rectified.focal_px.x());
+}
+
+TEST_F(RigCalibrationTest, RefusesAFiledProjectionThatNoReceiverTakes) {
+  const auto projections = [](const std::string& row) {
+    std::string text;
+    for (const std::string name : {"P1", "P2"}) {
+      text += name + ": !!opencv-matrix\n   rows: 3\n   cols: 4\n   dt: d\n   data: [ " + row +
+              (name == "P1" ? ", 0." : ", -33.6") + ", 0., 280., 119.5, 0., 0., 0., 1., 0. ]\n";
+    }
+    return text;
+  };
+  const std::string all = ExtrinsicsText(rig_);
+  RigCalibrationConfig config = Written(
+      IntrinsicsText(rig_), all.substr(0, all.find("P1:")) + projections("280., 0., 1e300"));
+  config.rectification = Rectification::kFromFile;
+  EXPECT_THAT(Reading(config),
+              ThrowsMessage<ConfigError>(
+                  AllOf(HasSubstr("extrinsics.yml: P1"), HasSubstr("principal point 1e+300"))));
 }
 
 TEST_F(RigCalibrationTest, RefusesSwappedCameras) {

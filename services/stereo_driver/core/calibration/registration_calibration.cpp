@@ -74,7 +74,7 @@ void RegistrationCalibration::ReadBothLenses(const RegistrationConfig& config) {
   depth_lens_ = ReadLensOf(intrinsics, "2");
   if (config.first == FirstCamera::kDepth) std::swap(*colour_lens_, depth_lens_);
   const cv::Size size =
-      FiledSize(intrinsics.Has("image_width") ? intrinsics : Open(config.extrinsics, "extrinsics"));
+      (intrinsics.HasImageSize() ? intrinsics : Open(config.extrinsics, "extrinsics")).ImageSize();
   SetSize(colour_lens_->calibration, size);
   SetSize(depth_lens_.calibration, size);
 }

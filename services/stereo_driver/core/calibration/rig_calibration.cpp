@@ -4,6 +4,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
+#include "common/geometry/lens_limits.h"
+#include "common/images/picture_size.h"
 #include "services/stereo_driver/core/calibration/camera_matrix.h"
 #include "services/stereo_driver/core/calibration/rig_files.h"
 
@@ -57,13 +59,14 @@ FiledRectification ReadRectification(const OpenCvFile& file, double unit_m, doub
   filed.projection.path = file.path();
   filed.projection.calibration.focal_px = {p1(0, 0), p1(1, 1)};
   filed.projection.calibration.principal_point_px = {p1(0, 2), p1(1, 2)};
+  capture::RequirePinhole(file, "P1", filed.projection.calibration);
   return filed;
 }
 
 /// The size that a file states, else that of the configuration; 0 when neither says.
 cv::Size StatedSize(const OpenCvFile& file, const RigCalibrationConfig& config) {
-  const cv::Size filed = FiledSize(file);
-  return filed.area() > 0 ? filed : cv::Size(config.width_px, config.height_px);
+  const cv::Size filed = file.ImageSize();
+  return file.HasImageSize() ? filed : cv::Size(config.width_px, config.height_px);
 }
 
 void Rectify(StereoCalibration& calibration, double alpha) {
@@ -84,7 +87,7 @@ void Rectify(StereoCalibration& calibration, double alpha) {
 void RequireUsableView(const StereoCalibration& calibration, const std::string& path) {
   const Eigen::Vector2d& focal_px = calibration.rectified.focal_px;
   const double widest = 20.0 * calibration.left.focal_px.maxCoeff();
-  if (!(focal_px.minCoeff() > 0.0) || !(focal_px.maxCoeff() < widest)) {
+  if (!geometry::IsLens(calibration.rectified) || !(focal_px.maxCoeff() < widest)) {
     throw config::ConfigError(path +
                               ": R and T leave no view that both cameras share; calibrate again");
   }
@@ -99,6 +102,8 @@ void RigCalibrationConfig::Validate() const {
   faults.Require(unit_m > 0.0, "unit_m", "must be positive");
   faults.Require(width_px >= 0 && height_px >= 0, "width_px",
                  "must not be negative, nor height_px");
+  faults.Require(width_px <= images::kLongestSide_px && height_px <= images::kLongestSide_px,
+                 "width_px", "must be 32766 at most, and height_px");
   faults.Require((width_px == 0) == (height_px == 0), "height_px",
                  "must be given when width_px is, and only then");
   faults.Require(alpha >= 0.0 && alpha <= 1.0, "alpha", "must lie between 0 and 1");
@@ -117,8 +122,7 @@ RigCalibration::RigCalibration(RigCalibrationConfig config) : config_(std::move(
   }
   left_ = ReadLensOf(intrinsics, "1");
   right_ = ReadLensOf(intrinsics, "2");
-  const bool intrinsics_say = intrinsics.Has("image_width");
-  const cv::Size size = StatedSize(intrinsics_say ? intrinsics : extrinsics, config_);
+  const cv::Size size = StatedSize(intrinsics.HasImageSize() ? intrinsics : extrinsics, config_);
   SetSize(left_.calibration, size);
   SetSize(right_.calibration, size);
   right_from_left_ = ReadSecondFromFirst(extrinsics, config_.unit_m, kBaselineLimits);

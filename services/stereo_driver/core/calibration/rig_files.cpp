@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <opencv2/core/eigen.hpp>
+#include <sstream>
+
+#include "common/geometry/lens_limits.h"
 
 namespace deixis::stereo_driver {
 namespace {
@@ -9,17 +12,22 @@ namespace {
 using capture::LensFile;
 using capture::OpenCvFile;
 
-constexpr double kRotationTolerance = 1e-3;
+/// No integer: it can be of any size.
+std::string Text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
 
 /// The translation of the first camera's origin into the second camera's frame, judged.
 Eigen::Vector3d ReadTranslation(const OpenCvFile& file, double unit_m,
                                 const BaselineLimits& limits) {
   const Eigen::Vector3d translation_m = ReadMatrix(file, "T", 3, 1) * unit_m;
-  const long baseline_mm = std::lround(translation_m.norm() * 1000.0);
-  if (baseline_mm < limits.least_mm || baseline_mm > limits.largest_mm) {
-    file.Fail("T makes a baseline of " + std::to_string(baseline_mm) +
-              " mm, which is not between " + std::to_string(limits.least_mm) + " and " +
-              std::to_string(limits.largest_mm) + "; set " + limits.unit_key +
+  const double baseline_mm = std::round(translation_m.norm() * 1000.0);
+  if (!(baseline_mm >= limits.least_mm && baseline_mm <= limits.largest_mm)) {
+    file.Fail("T makes a baseline of " + Text(baseline_mm) + " mm, which is not between " +
+              Text(limits.least_mm) + " and " + Text(limits.largest_mm) + "; set " +
+              limits.unit_key +
               " to the metres per unit of T (0.001 when it is in millimetres, 0.025 when it counts "
               "board squares of 25 mm)");
   }
@@ -45,9 +53,7 @@ Eigen::MatrixXd ReadMatrix(const OpenCvFile& file, const std::string& key, int r
 
 Eigen::Matrix3d ReadRotation(const OpenCvFile& file, const std::string& key) {
   const Eigen::Matrix3d rotation = ReadMatrix(file, key, 3, 3);
-  const double error =
-      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (error > kRotationTolerance || rotation.determinant() < 0.0) {
+  if (!geometry::IsRotation(rotation)) {
     file.Fail(key + " is not a rotation; calibrate again or correct it");
   }
   return rotation;
@@ -63,10 +69,6 @@ geometry::RigidTransform ReadSecondFromFirst(const OpenCvFile& file, double unit
 
 LensFile ReadLensOf(const OpenCvFile& file, const std::string& number) {
   return {file.path(), capture::ReadLens(file, {"M" + number, "", "D" + number, ""})};
-}
-
-cv::Size FiledSize(const OpenCvFile& file) {
-  return {file.PixelCount("image_width"), file.PixelCount("image_height")};
 }
 
 void SetSize(geometry::CameraCalibration& calibration, cv::Size size) {

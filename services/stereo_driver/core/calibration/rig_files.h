@@ -19,8 +19,8 @@ Eigen::Matrix3d ReadRotation(const capture::OpenCvFile& file, const std::string&
 
 /// How far apart two cameras can be, and which key of the configuration says in what T counts.
 struct BaselineLimits {
-  long least_mm = 0;
-  long largest_mm = 0;
+  double least_mm = 0.0;
+  double largest_mm = 0.0;
   std::string unit_key;
 };
 
@@ -30,9 +30,6 @@ geometry::RigidTransform ReadSecondFromFirst(const capture::OpenCvFile& file, do
 
 /// The first lens ("1": M1 D1) or the second ("2"), without its size.
 capture::LensFile ReadLensOf(const capture::OpenCvFile& file, const std::string& number);
-
-/// image_width and image_height; 0x0 when the file does not say.
-cv::Size FiledSize(const capture::OpenCvFile& file);
 
 void SetSize(geometry::CameraCalibration& calibration, cv::Size size);
 

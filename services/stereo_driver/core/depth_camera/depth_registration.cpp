@@ -19,6 +19,8 @@ using geometry::CameraCalibration;
 constexpr double kLargestMiss_px = 0.5;
 // Along the axis, of a ray that is none: whatever its depth, it ends behind the camera.
 constexpr float kBehind = -1e6F;
+// Of a ray times the target's camera matrix: times any depth, it is still a number.
+constexpr double kLongestRay = 1e12;
 // Of a depth pixel: patches of a slanted surface's border, each at its own distance, still meet.
 constexpr float kPatchSide = 1.1F;
 
@@ -76,8 +78,9 @@ RayGrid MakeRays(const CameraCalibration& lens, cv::Size count, double first_px,
   RayGrid grid;
   grid.columns = count.width;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const bool is_ray = cv::norm(again[i] - pixels[i]) <= kLargestMiss_px;
     const Eigen::Vector3d ray = pixels_from_depth * Eigen::Vector3d(rays[i].x, rays[i].y, 1.0);
+    const bool is_ray = cv::norm(again[i] - pixels[i]) <= kLargestMiss_px &&
+                        (ray.array().abs() <= kLongestRay).all();
     grid.u.push_back(is_ray ? static_cast<float>(ray.x()) : 0.0F);
     grid.v.push_back(is_ray ? static_cast<float>(ray.y()) : 0.0F);
     grid.z.push_back(is_ray ? static_cast<float>(ray.z()) : kBehind);

@@ -43,7 +43,7 @@ struct Span {
 };
 
 /// Of 0..last, those between the least and the largest of four. Without branches, for vectors of
-/// them. What is not a number lies anywhere.
+/// them. With a corner that is not finite, none: it lies nowhere.
 inline Span SpanOf(float a, float b, float c, float d, float last) {
   constexpr float kMargin = 1e-3F;  // Rounding opens no crack at a pixel's centre.
   const float least = std::min(std::min(a, b), std::min(c, d)) - kMargin;
@@ -52,7 +52,8 @@ inline Span SpanOf(float a, float b, float c, float d, float last) {
   const float to = std::max(-1.0F, std::min(last, largest));
   const auto floor = static_cast<std::int32_t>(from);
   const std::int32_t is_between = static_cast<float>(floor) < from ? 1 : 0;
-  return {floor + is_between, static_cast<std::int32_t>(to + 1.0F) - 1};
+  const bool is_finite = 0.0F * (a + b + c + d) == 0.0F;
+  return {floor + is_between, is_finite ? static_cast<std::int32_t>(to + 1.0F) - 1 : -1};
 }
 
 /// Spans of rows of quads.

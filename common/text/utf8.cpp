@@ -1,6 +1,9 @@
-#include "common/messages/utf8.h"
+#include "common/text/utf8.h"
 
-namespace deixis::messages {
+#include <cstddef>
+#include <cstdint>
+
+namespace deixis::text {
 namespace {
 
 // How many bytes follow the first one of a character, and between which bounds the second must be.
@@ -26,12 +29,12 @@ Tail TailOf(std::uint8_t first) {
 
 }  // namespace
 
-bool IsText(Bytes bytes) {
-  for (std::size_t at = 0; at < bytes.size;) {
-    const Tail tail = TailOf(bytes.data[at]);
-    if (tail.size >= bytes.size - at) return false;
+bool IsUtf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const Tail tail = TailOf(static_cast<std::uint8_t>(text[at]));
+    if (tail.size >= text.size() - at) return false;
     for (std::size_t i = 1; i <= tail.size; ++i) {
-      const std::uint8_t byte = bytes.data[at + i];
+      const auto byte = static_cast<std::uint8_t>(text[at + i]);
       const bool fits = i == 1 ? byte >= tail.lowest && byte <= tail.highest : byte >> 6 == 2;
       if (!fits) return false;
     }
@@ -40,4 +43,4 @@ bool IsText(Bytes bytes) {
   return true;
 }
 
-}  // namespace deixis::messages
+}  // namespace deixis::text
