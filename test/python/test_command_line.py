@@ -42,6 +42,17 @@ def test_recording_needs_expressions_that_are_some(capsys: pytest.CaptureFixture
     assert "'(' is no regular expression" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("words", [
+    ["echo", ""], ["hz", "A", ""], ["delay", ""], ["record", ""], ["replay", "x", "--channels", ""],
+    ["export", "x", "--mcap", "y", "--channels", ""]])
+def test_no_channel_at_all_is_wrong_usage(words: list[str],
+                                          capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(words)
+    assert end.value.code == 2
+    assert "'' is no channel: name one, or '.*' for all" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("command", ["record", "echo", "hz"])
 def test_expressions_that_cannot_stand_within_others_are_refused(
         command: str, url: str, capsys: pytest.CaptureFixture[str]) -> None:

@@ -10,6 +10,8 @@ from deixis_frontend.errors import UserError
 
 def channel_pattern(text: str) -> re.Pattern[str]:
     """The expression; argparse tells what is wrong with it."""
+    if not text:
+        raise argparse.ArgumentTypeError("'' is no channel: name one, or '.*' for all")
     try:
         return re.compile(text)
     except re.error as error:
