@@ -22,8 +22,9 @@ struct TimeMatch {
 /// Finds which items of two streams were taken together. Items may arrive in any order between the
 /// streams; within a stream times must grow. An item goes out with the nearest one of the other
 /// stream that is there and no further than the skew; so take a skew below half the period. What
-/// can find no partner any more is dropped and counted. Time that goes backwards in a stream begins
-/// anew: what waits there is dropped and counted.
+/// can find no partner any more is dropped and counted: a nearer one of its own stream came, or two
+/// of the other stream lie beyond it. One does not count, its time may be damaged. Time that goes
+/// backwards in a stream begins anew there: what waits and is not earlier is dropped and counted.
 template <typename First, typename Second>
 class TimeMatcher {
  public:
@@ -44,11 +45,15 @@ class TimeMatcher {
   std::optional<Match> Next() {
     while (!firsts_.empty() && !seconds_.empty()) {
       const double skew_s = SecondsBetween(firsts_.front().time, seconds_.front().time);
-      if (HasNearer(seconds_, firsts_.front().time, std::abs(skew_s)) || skew_s < -max_skew_s_) {
+      const bool first_is_late = skew_s<-max_skew_s_, second_is_late = skew_s> max_skew_s_;
+      if (HasNearer(seconds_, firsts_.front().time, std::abs(skew_s)) ||
+          (first_is_late && firsts_.size() > 1)) {
         Drop(seconds_, unmatched_second_);
       } else if (HasNearer(firsts_, seconds_.front().time, std::abs(skew_s)) ||
-                 skew_s > max_skew_s_) {
+                 (second_is_late && seconds_.size() > 1)) {
         Drop(firsts_, unmatched_first_);
+      } else if (first_is_late || second_is_late) {
+        return std::nullopt;
       } else {
         return TakeFronts();
       }
@@ -62,8 +67,14 @@ class TimeMatcher {
     while (!seconds_.empty()) Drop(seconds_, unmatched_second_);
   }
 
-  bool first_waits() const { return !firsts_.empty(); }
-  bool second_waits() const { return !seconds_.empty(); }
+  /// Whether, when Next() found none, one more of that stream may bring a match.
+  bool wants_first() const { return firsts_.empty() || !seconds_.empty(); }
+  bool wants_second() const { return seconds_.empty() || !firsts_.empty(); }
+  /// Whether, when Next() found none, nothing can match any more because streams have ended.
+  bool IsOver(bool first_ended, bool second_ended) const {
+    return (first_ended && second_ended) || (first_ended && firsts_.empty()) ||
+           (second_ended && seconds_.empty());
+  }
   std::int64_t unmatched_first() const { return unmatched_first_; }
   std::int64_t unmatched_second() const { return unmatched_second_; }
 
@@ -84,8 +95,8 @@ class TimeMatcher {
 
   template <typename T>
   void Add(Timestamp time, T item, Queue<T>& queue, std::int64_t& unmatched) {
-    const bool goes_back = !queue.empty() && !(queue.back().time < time);
-    while (!queue.empty() && (goes_back || queue.size() >= capacity_)) Drop(queue, unmatched);
+    for (; !queue.empty() && !(queue.back().time < time); ++unmatched) queue.pop_back();
+    while (queue.size() >= capacity_) Drop(queue, unmatched);
     queue.push_back({time, std::move(item)});
   }
 

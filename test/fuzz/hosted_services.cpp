@@ -135,9 +135,7 @@ std::string HostedServices::FirstSilent() {
 }
 
 std::string HostedServices::Complaint() {
-  // Of what is paired by time, one good message may be lost to a damaged partner of a time to come.
-  std::string silent = FirstSilent();
-  if (!silent.empty()) silent = FirstSilent();
+  const std::string silent = FirstSilent();
   if (!silent.empty()) return "nothing is published on " + silent;
   for (const auto& channel : bus_.statistics()) {
     for (const char* reason : {"handler_failed", "malformed"}) {

@@ -84,13 +84,10 @@ TwoSourceFeed::TwoSourceFeed(std::unique_ptr<capture::Source> left,
 }
 
 Take TwoSourceFeed::Next() {
+  if (auto pair = NextPair()) return {capture::SourceState::kPicture, std::move(pair)};
   for (std::size_t side = 0; side < states_.size(); ++side) Fetch(side);
-  if (auto match = matcher_.Next()) {
-    return {capture::SourceState::kPicture, Sight{"pair " + std::to_string(++pairs_),
-                                                  match->first_time,
-                                                  {match->first.bgr, match->second.bgr}}};
-  }
-  if (HasEnded(0) || HasEnded(1)) {
+  if (auto pair = NextPair()) return {capture::SourceState::kPicture, std::move(pair)};
+  if (HasEnded()) {
     matcher_.Finish();
     return {capture::SourceState::kFinished, std::nullopt};
   }
@@ -98,10 +95,18 @@ Take TwoSourceFeed::Next() {
   return {capture::SourceState::kWaiting, std::nullopt};
 }
 
+std::optional<Sight> TwoSourceFeed::NextPair() {
+  auto match = matcher_.Next();
+  if (!match) return std::nullopt;
+  return Sight{
+      "pair " + std::to_string(++pairs_), match->first_time, {match->first.bgr, match->second.bgr}};
+}
+
 // Of a live camera the newest picture is wanted, of a recording the next one.
 void TwoSourceFeed::Fetch(std::size_t side) {
   if (states_[side] == capture::SourceState::kFinished) return;
-  if (kind() == FeedKind::kLive || !IsWaiting(side)) Keep(side, sources_[side]->Next());
+  const bool is_wanted = side == 0 ? matcher_.wants_first() : matcher_.wants_second();
+  if (kind() == FeedKind::kLive || is_wanted) Keep(side, sources_[side]->Next());
 }
 
 void TwoSourceFeed::Keep(std::size_t side, capture::Grab grab) {
@@ -115,12 +120,9 @@ void TwoSourceFeed::Keep(std::size_t side, capture::Grab grab) {
   }
 }
 
-bool TwoSourceFeed::IsWaiting(std::size_t side) const {
-  return side == 0 ? matcher_.first_waits() : matcher_.second_waits();
-}
-
-bool TwoSourceFeed::HasEnded(std::size_t side) const {
-  return states_[side] == capture::SourceState::kFinished && !IsWaiting(side);
+bool TwoSourceFeed::HasEnded() const {
+  return matcher_.IsOver(states_[0] == capture::SourceState::kFinished,
+                         states_[1] == capture::SourceState::kFinished);
 }
 
 FeedKind TwoSourceFeed::kind() const { return kind_; }

@@ -42,10 +42,10 @@ class TwoSourceFeed final : public Feed {
   std::string trouble() const override;
 
  private:
+  std::optional<Sight> NextPair();
   void Fetch(std::size_t side);
   void Keep(std::size_t side, capture::Grab grab);
-  bool IsWaiting(std::size_t side) const;
-  bool HasEnded(std::size_t side) const;
+  bool HasEnded() const;
 
   std::vector<std::unique_ptr<capture::Source>> sources_;  ///< Left, right.
   FeedKind kind_;

@@ -68,6 +68,7 @@ TEST_F(TimeMatcherTest, PairsAtTheSkewAndNotBeyondIt) {
   EXPECT_THAT(Matches(), ElementsAre("a0b10"));
   First(100);
   Second(111);
+  Second(144);
   EXPECT_THAT(Matches(), IsEmpty());
   EXPECT_EQ(matcher_.unmatched_first(), 1);
 }
@@ -96,13 +97,68 @@ TEST_F(TimeMatcherTest, RecoversWhenBothStreamsGoBackwards) {
   EXPECT_THAT(Matches(), ElementsAre("a0b1"));
 }
 
+TEST_F(TimeMatcherTest, LosesNothingToOneTimeToCome) {
+  First(0);
+  Second(1'000'000);
+  EXPECT_THAT(Matches(), IsEmpty());
+  Second(1);
+  EXPECT_THAT(Matches(), ElementsAre("a0b1"));
+  First(33);
+  First(1'000'000);
+  First(66);
+  Second(33);
+  Second(66);
+  EXPECT_THAT(Matches(), ElementsAre("a33b33", "a66b66"));
+  EXPECT_EQ(matcher_.unmatched_first(), 1);
+  EXPECT_EQ(matcher_.unmatched_second(), 1);
+}
+
+TEST_F(TimeMatcherTest, LosesNothingToOneTimeLongAgo) {
+  First(1'000'000);
+  Second(0);
+  EXPECT_THAT(Matches(), IsEmpty());
+  Second(1'000'001);
+  EXPECT_THAT(Matches(), ElementsAre("a1000000b1000001"));
+  EXPECT_EQ(matcher_.unmatched_second(), 1);
+}
+
+TEST_F(TimeMatcherTest, FollowsBothStreamsIntoAnotherTime) {
+  First(0);
+  Second(1'000'000);
+  Second(1'000'033);
+  First(1'000'034);
+  EXPECT_THAT(Matches(), ElementsAre("a1000034b1000033"));
+  EXPECT_EQ(matcher_.unmatched_first(), 1);
+  EXPECT_EQ(matcher_.unmatched_second(), 1);
+}
+
+TEST_F(TimeMatcherTest, WantsOfEitherWhatMayMatch) {
+  EXPECT_TRUE(matcher_.wants_first() && matcher_.wants_second());
+  First(0);
+  EXPECT_FALSE(matcher_.wants_first());
+  EXPECT_TRUE(matcher_.wants_second());
+  Second(50);
+  EXPECT_THAT(Matches(), IsEmpty());
+  EXPECT_TRUE(matcher_.wants_first() && matcher_.wants_second());
+}
+
+TEST_F(TimeMatcherTest, IsOverWhenNoMatchCanCome) {
+  EXPECT_TRUE(matcher_.IsOver(/*first_ended=*/true, /*second_ended=*/false));
+  First(0);
+  EXPECT_FALSE(matcher_.IsOver(/*first_ended=*/true, /*second_ended=*/false));
+  EXPECT_TRUE(matcher_.IsOver(/*first_ended=*/false, /*second_ended=*/true));
+  Second(50);
+  EXPECT_FALSE(matcher_.IsOver(/*first_ended=*/true, /*second_ended=*/false));
+  EXPECT_TRUE(matcher_.IsOver(/*first_ended=*/true, /*second_ended=*/true));
+}
+
 TEST_F(TimeMatcherTest, CountsWhatIsLeftAtTheEnd) {
   First(0);
   Second(50);
   matcher_.Finish();
   EXPECT_EQ(matcher_.unmatched_first(), 1);
   EXPECT_EQ(matcher_.unmatched_second(), 1);
-  EXPECT_FALSE(matcher_.first_waits());
+  EXPECT_FALSE(matcher_.Next());
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ std::optional<Frame> MatchedSource::NextMatch() {
 
 void MatchedSource::FetchLeft() {
   if (left_state_ == SourceState::kFinished) return;
-  if (matcher_.first_waits() && KeepsWhatIsNotFetched(*left_)) return;
+  if (!matcher_.wants_first() && KeepsWhatIsNotFetched(*left_)) return;
   capture::Grab grab = left_->Next();
   left_state_ = grab.state;
   if (grab.picture) matcher_.AddFirst(grab.picture->time, std::move(*grab.picture));
@@ -77,16 +77,15 @@ void MatchedSource::FetchLeft() {
 
 void MatchedSource::FetchRight() {
   if (right_state_ == SourceState::kFinished) return;
-  if (matcher_.second_waits() && KeepsWhatIsNotFetched(*right_)) return;
+  if (!matcher_.wants_second() && KeepsWhatIsNotFetched(*right_)) return;
   capture::Grab grab = right_->Next();
   right_state_ = grab.state;
   if (grab.picture) matcher_.AddSecond(grab.picture->time, std::move(*grab.picture));
 }
 
-// When one recording is over, nothing more can be matched.
 bool MatchedSource::HasEnded() const {
-  return (left_state_ == SourceState::kFinished && !matcher_.first_waits()) ||
-         (right_state_ == SourceState::kFinished && !matcher_.second_waits());
+  return matcher_.IsOver(left_state_ == SourceState::kFinished,
+                         right_state_ == SourceState::kFinished);
 }
 
 FrameSourceStatus MatchedSource::status() const {
