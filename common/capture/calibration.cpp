@@ -5,6 +5,7 @@
 
 #include "common/capture/opencv_file.h"
 #include "common/geometry/lens_limits.h"
+#include "common/text/size_text.h"
 
 namespace deixis::capture {
 namespace {
@@ -12,10 +13,6 @@ namespace {
 using geometry::CameraCalibration;
 
 constexpr double kAspectTolerance = 0.01;
-
-std::string Text(int width_px, int height_px) {
-  return std::to_string(width_px) + "x" + std::to_string(height_px);
-}
 
 std::string Text(double value) {
   std::string text = std::to_string(value);
@@ -86,17 +83,17 @@ CalibrationAnswer AtSize(const LensFile& lens, cv::Size size) {
     return {calibration,
             "the calibration file states no image size: taken as that of the pictures"};
   }
-  const std::string stated = Text(calibration.width_px, calibration.height_px);
+  const std::string stated = text::SizeText(calibration.width_px, calibration.height_px);
   if (size == cv::Size(calibration.width_px, calibration.height_px)) return {calibration, ""};
   if (!HasSameAspect(calibration, size)) {
     throw config::ConfigError(lens.path + ": is for pictures of " + stated + " but they have " +
-                              Text(size.width, size.height) +
+                              text::SizeText(size.width, size.height) +
                               ", another aspect; calibrate at this size or change the camera's");
   }
   const CameraCalibration scaled = geometry::Scaled(calibration, size.width, size.height);
   if (!geometry::IsLens(scaled)) {
     throw config::ConfigError(lens.path + ": scaled from " + stated + " to " +
-                              Text(size.width, size.height) +
+                              text::SizeText(size.width, size.height) +
                               " it is no lens that a camera has; calibrate again");
   }
   return {scaled, "calibration scaled from " + stated};
@@ -120,8 +117,8 @@ CalibrationAnswer Calibration::For(cv::Size size) const {
   if (own_ && CanBeScaled(*own_, size)) return AtSize({"the camera's own lens", *own_}, size);
   CalibrationAnswer answer = Guess(size, config_);
   if (own_) {
-    answer.remark += "; the camera's own lens is for " + std::to_string(own_->width_px) + "x" +
-                     std::to_string(own_->height_px) + ", another aspect";
+    answer.remark += "; the camera's own lens is for " +
+                     text::SizeText(own_->width_px, own_->height_px) + ", another aspect";
   }
   return answer;
 }

@@ -16,6 +16,7 @@
 #include "common/config/config.h"
 #include "common/geometry/lens_limits.h"
 #include "common/images/picture_size.h"
+#include "common/text/size_text.h"
 
 namespace deixis::capture {
 namespace {
@@ -104,8 +105,7 @@ void ReadPinhole(const OpenCvFile& file, const LensKeys& keys, CameraCalibration
   const cv::Mat matrix = file.Matrix(keys.matrix, keys.other_matrix);
   const std::string name = Either(keys.matrix, keys.other_matrix);
   if (matrix.rows != 3 || matrix.cols != 3) {
-    file.Fail(name + " must be 3x3 but is " + std::to_string(matrix.rows) + "x" +
-              std::to_string(matrix.cols));
+    file.Fail(name + " must be 3x3 but is " + text::SizeText(matrix.rows, matrix.cols));
   }
   calibration.focal_px = {matrix.at<double>(0, 0), matrix.at<double>(1, 1)};
   calibration.principal_point_px = {matrix.at<double>(0, 2), matrix.at<double>(1, 2)};

@@ -29,7 +29,11 @@ class PlainYaml final : public YAML::EventHandler {
  public:
   explicit PlainYaml(std::string file) : file_(std::move(file)) {}
 
-  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++documents_ == 1) return;
+    throw ConfigError(Place(file_, mark) +
+                      ": a second document begins; a configuration is one, remove its '---'");
+  }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     RefuseAnchor(mark, anchor);
@@ -68,6 +72,7 @@ class PlainYaml final : public YAML::EventHandler {
 
   std::string file_;
   int depth_ = 0;
+  int documents_ = 0;
 };
 
 void RejectDuplicates(const YAML::Node& node, const std::string& file, const std::string& path) {
@@ -90,7 +95,8 @@ YAML::Node ParsePlain(const std::string& text, const std::string& file) {
   std::istringstream in(text);
   YAML::Parser parser(in);
   PlainYaml check(file);
-  parser.HandleNextDocument(check);
+  while (parser.HandleNextDocument(check)) {
+  }
   YAML::Node node = YAML::Load(text);
   RejectDuplicates(node, file, "");
   return node;

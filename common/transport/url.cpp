@@ -1,6 +1,9 @@
 #include "common/transport/url.h"
 
+#include <charconv>
+#include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <set>
 
 #include "common/transport/bus.h"
@@ -19,6 +22,30 @@ void RequireKeysOnce(const std::string& text) {
   }
 }
 
+void RequireInRange(const Url& url, const std::string& name, const std::string& value,
+                    std::int64_t least, std::int64_t most) {
+  std::int64_t number = 0;
+  const char* end = value.data() + value.size();
+  const auto [stop, error] = std::from_chars(value.data(), end, number);
+  if (error == std::errc() && stop == end && number >= least && number <= most) return;
+  throw BusError("LCM URL '" + url.text + "': " + name + " must be a whole number from " +
+                 std::to_string(least) + " to " + std::to_string(most));
+}
+
+// LCM itself takes any number for another one, or says nothing of why it does not open.
+void RequireUdpm(const Url& url) {
+  const auto colon = url.network.find(':');
+  if (colon != std::string::npos) {
+    RequireInRange(url, "the port", url.network.substr(colon + 1), 1, 65535);
+  }
+  const std::string ttl = url.option("ttl");
+  if (!ttl.empty()) RequireInRange(url, "ttl", ttl, 0, 255);
+  const std::string buffer = url.option("recv_buf_size");
+  if (!buffer.empty()) {
+    RequireInRange(url, "recv_buf_size", buffer, 1, std::numeric_limits<std::int32_t>::max());
+  }
+}
+
 Url TakeApart(const std::string& text) {
   const auto separator = text.find("://");
   if (separator == std::string::npos) {
@@ -30,6 +57,7 @@ Url TakeApart(const std::string& text) {
   url.provider = text.substr(0, separator);
   url.network = text.substr(separator + 3, text.find('?') - separator - 3);
   RequireKeysOnce(text);
+  if (url.provider == "udpm") RequireUdpm(url);
   return url;
 }
 

@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "common/text/size_text.h"
+
 namespace deixis::calibrator {
 namespace {
 
@@ -107,8 +109,7 @@ std::vector<std::uint8_t> ResolutionChunk(double dots_per_m) {
 
 std::string BoardCaption(const BoardConfig& config, const BoardLayout& layout) {
   std::ostringstream text;
-  const std::string count =
-      std::to_string(config.count.width) + "x" + std::to_string(config.count.height);
+  const std::string count = text::SizeText(config.count.width, config.count.height);
   if (config.kind == BoardKind::kChessboard) {
     text << "--board " << count << " --square " << config.square_m;
   } else {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/text/size_text.h"
 #include "services/calibrator/core/figures.h"
 
 namespace deixis::calibrator {
@@ -97,9 +98,8 @@ std::optional<Judgement> ViewSelection::JudgeSizes(
     const cv::Size size = views[camera]->size;
     if (size == wanted) continue;
     return Judgement{Fate::kOtherSize,
-                     CameraName(camera, views.size()) + std::to_string(size.width) + "x" +
-                         std::to_string(size.height) + ", not " + std::to_string(wanted.width) +
-                         "x" + std::to_string(wanted.height) + " as the first"};
+                     CameraName(camera, views.size()) + text::SizeText(size.width, size.height) +
+                         ", not " + text::SizeText(wanted.width, wanted.height) + " as the first"};
   }
   return std::nullopt;
 }

@@ -5,6 +5,7 @@
 
 #include "common/capture/picture_encoder.h"
 #include "common/config/plain_text.h"
+#include "common/text/size_text.h"
 
 namespace deixis::stereo_driver {
 namespace {
@@ -66,9 +67,7 @@ geometry::StereoCalibration Stamped(geometry::StereoCalibration calibration, Tim
   return calibration;
 }
 
-std::string Text(cv::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
+std::string Text(cv::Size size) { return text::SizeText(size.width, size.height); }
 
 void RequireSameView(const images::RgbdImage& image) {
   const cv::Size depth = image.depth.depth_mm.size();
@@ -109,6 +108,9 @@ void StereoDriverConfig::Check(config::Faults& faults) const {
                  "start_time_utime",
                  "must be -1 (chosen by the pace) or a time in microseconds, 2^59 at most");
   source.Check(faults);
+  faults.Require(MeasuresDepth(source.kind) || matcher.match_size == Size::kFull ||
+                     matcher.depth_size == Size::kHalf,
+                 "matcher.depth_size", "must be half when matcher.match_size is");
   faults.Require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", "must lie in 1..100");
   faults.Require(pair_jpeg_quality >= 1 && pair_jpeg_quality <= 100, "pair_jpeg_quality",
                  "must lie in 1..100");
@@ -187,9 +189,11 @@ StereoOutput StereoDriver::Convert(const images::RgbdImage& image) {
 
 void StereoDriver::PrepareRig(cv::Size size) {
   if (matcher_ && IsOfSize(calibration_, size)) return;
+  if (refused_size_ == size) throw UnusableFrame(refusal_);
   auto [calibration, remark] = rig_->For(size);
-  const std::string fault = MatchingFault(config_.matcher, calibration);
-  if (!fault.empty()) throw UnusableFrame(fault);
+  refusal_ = MatchingFault(config_.matcher, calibration);
+  refused_size_ = refusal_.empty() ? cv::Size() : size;
+  if (!refusal_.empty()) throw UnusableFrame(refusal_);
   matcher_.emplace(config_.matcher, calibration);
   calibration_ = std::move(calibration);
   remark_ = std::move(remark);

@@ -155,6 +155,8 @@ class StereoDriver {
   std::string last_unusable_;     ///< Why the last of them could not.
 
   std::optional<RigCalibration> rig_;                    ///< For pairs.
+  cv::Size refused_size_;                                ///< Of pairs that cannot be matched.
+  std::string refusal_;                                  ///< Why they cannot.
   std::optional<capture::Calibration> lens_;             ///< For colour and depth.
   std::optional<capture::LensWait> lens_wait_;           ///< Of cameras that say it themselves.
   std::optional<RegistrationCalibration> registration_;  ///< For depth of another view.

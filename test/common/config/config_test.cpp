@@ -118,6 +118,10 @@ TEST_F(Config, RejectsDuplicateKeys) {
   EXPECT_THAT(FaultOf("count: 1\ncount: 2\n"), HasSubstr("'count' is given twice"));
 }
 
+TEST_F(Config, RejectsASecondDocument) {
+  EXPECT_THAT(FaultOf("count: 1\n---\ncount: 2\n"), HasSubstr("a second document begins"));
+}
+
 TEST_F(Config, RejectsWrongTypes) {
   EXPECT_THAT(FaultOf("count: many\n"), HasSubstr("'count' must be a whole number"));
   EXPECT_THAT(FaultOf("count: 1.5\n"), HasSubstr("'count' must be a whole number"));

@@ -1,6 +1,6 @@
 #include "common/transport/url.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cstdlib>
 
@@ -55,6 +55,25 @@ TEST(Url, WithAKeyGivenTwiceIsAnError) {
   EXPECT_THROW(ResolveUrl("udpm://239.255.1.1:7000?ttl=0&ttl=1", 1000), BusError);
   EXPECT_THROW(ResolveUrl("file:///tmp/x?mode=r&speed=1&mode=w", 1000), BusError);
   EXPECT_NO_THROW(ResolveUrl("udpm://239.255.1.1:7000?ttl=0&recv_buf_size=5", 1000));
+}
+
+TEST(Url, WithNumbersThatLcmWouldMisreadNamesThem) {
+  using testing::HasSubstr;
+  const auto resolving = [](const std::string& rest) {
+    return [rest] { ResolveUrl("udpm://239.255.1.1" + rest, 1000); };
+  };
+  for (const std::string port : {":0", ":65536", ":-7", ":7667x", ":", ":99999999999999999999"}) {
+    EXPECT_THAT(resolving(port), testing::ThrowsMessage<BusError>(HasSubstr("the port must be")))
+        << port;
+  }
+  EXPECT_THAT(resolving(":7000?ttl=256"), testing::ThrowsMessage<BusError>(HasSubstr("ttl must")));
+  for (const std::string size : {"-1", "0", "4M", "2147483648"}) {
+    EXPECT_THAT(resolving(":7000?recv_buf_size=" + size),
+                testing::ThrowsMessage<BusError>(HasSubstr("recv_buf_size must")))
+        << size;
+  }
+  EXPECT_NO_THROW(resolving("")());
+  EXPECT_NO_THROW(resolving(":65535?ttl=255&recv_buf_size=2147483647")());
 }
 
 TEST(Url, OfAnUnknownProviderIsAnErrorWhenOpened) {

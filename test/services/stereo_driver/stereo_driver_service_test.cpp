@@ -139,7 +139,8 @@ TEST_F(StereoDriverServiceTest, CountsPairsThatAreTooSmallAndGoesOn) {
   config_.driver.source.kind = FrameSourceKind::kPairChannel;
   StereoDriverService service(config_, bus_, bus_);
   std::int64_t unusable = 0;
-  for (const cv::Size size : {cv::Size(1, 1), {2, 40}, {40, 3}, {16, 16}, {17, 33}, {33, 17}}) {
+  for (const cv::Size size :
+       {cv::Size(1, 1), {2, 40}, {40, 3}, {40, 3}, {16, 16}, {17, 33}, {40, 3}, {33, 17}}) {
     if (std::min(size.width, size.height) < 16) ++unusable;
     const cv::Mat bgr(size, CV_8UC3, cv::Scalar(1, 2, 3));
     bus_.Publish("STEREO_PAIR", images::StereoPair{{{1}, "", bgr}, {{1}, "", bgr}});

@@ -218,6 +218,24 @@ TEST_F(RegisteringDriverTest, TakesTheCamerasOwnLensBesideADepthLens) {
   EXPECT_TRUE(driver.Convert(image_).calibration->rectified.focal_px.isApprox(own.focal_px));
 }
 
+TEST(StereoDriverConfig, AsksOnlyOfPairsThatDepthIsNotLargerThanWhatIsMatched) {
+  StereoDriverConfig config;
+  config.matcher.match_size = Size::kHalf;
+  config.matcher.depth_size = Size::kFull;
+  const auto checking = [&config](FrameSourceKind kind) {
+    config.source.kind = kind;
+    return [&config] {
+      config::Faults faults;
+      config.Check(faults);
+      faults.ThrowIfAny();
+    };
+  };
+  EXPECT_THAT(
+      checking(FrameSourceKind::kPairChannel),
+      testing::ThrowsMessage<config::ConfigError>(testing::HasSubstr("matcher.depth_size")));
+  EXPECT_NO_THROW(checking(FrameSourceKind::kKinectChannel)());
+}
+
 TEST(DepthCameraConfig, NamesTwoFilesForOneLens) {
   DepthCameraConfig config;
   config.registration.mode = RegistrationMode::kExtrinsics;

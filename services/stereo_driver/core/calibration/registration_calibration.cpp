@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/text/size_text.h"
 #include "services/stereo_driver/core/calibration/rig_files.h"
 
 namespace deixis::stereo_driver {
@@ -26,16 +27,12 @@ OpenCvFile Open(const std::string& name, const std::string& key) {
   return {Find(name, key), Cure(key)};
 }
 
-std::string Text(int width_px, int height_px) {
-  return std::to_string(width_px) + "x" + std::to_string(height_px);
-}
-
 void RequireSameAspect(const capture::LensFile& lens, cv::Size size) {
   const geometry::CameraCalibration& filed = lens.calibration;
   if (filed.width_px == 0 || capture::HasSameAspect(filed, size)) return;
   throw config::ConfigError(
-      lens.path + ": is for pictures of " + Text(filed.width_px, filed.height_px) +
-      " but the depth camera's have " + Text(size.width, size.height) +
+      lens.path + ": is for pictures of " + text::SizeText(filed.width_px, filed.height_px) +
+      " but the depth camera's have " + text::SizeText(size.width, size.height) +
       ", another aspect; calibrate the depth camera at this size and name its lens by "
       "depth_camera.registration.depth_lens");
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/geometry/lens_limits.h"
+#include "common/text/size_text.h"
 
 namespace deixis::stereo_driver {
 namespace {
@@ -42,9 +43,8 @@ Eigen::MatrixXd ReadMatrix(const OpenCvFile& file, const std::string& key, int r
     matrix = matrix.reshape(1, rows);
   }
   if (matrix.rows != rows || matrix.cols != cols) {
-    file.Fail(key + " must be " + std::to_string(rows) + "x" + std::to_string(cols) + " but is " +
-              std::to_string(matrix.rows) + "x" + std::to_string(matrix.cols) +
-              "; calibrate again or correct it");
+    file.Fail(key + " must be " + text::SizeText(rows, cols) + " but is " +
+              text::SizeText(matrix.rows, matrix.cols) + "; calibrate again or correct it");
   }
   Eigen::MatrixXd values;
   cv::cv2eigen(matrix, values);

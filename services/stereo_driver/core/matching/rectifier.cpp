@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "common/text/size_text.h"
 #include "services/stereo_driver/core/calibration/camera_matrix.h"
 
 namespace deixis::stereo_driver {
@@ -16,11 +17,9 @@ cv::Size SizeOf(const geometry::CameraCalibration& camera) {
 
 void RequirePicture(const cv::Mat& picture, cv::Size size) {
   if (picture.size() != size || picture.type() != CV_8UC3) {
-    throw std::logic_error("Rectifier: a picture of " + std::to_string(picture.cols) + "x" +
-                           std::to_string(picture.rows) + ", type " +
-                           std::to_string(picture.type()) + ", where maps are for " +
-                           std::to_string(size.width) + "x" + std::to_string(size.height) +
-                           ", BGR");
+    throw std::logic_error("Rectifier: a picture of " + text::SizeText(picture.cols, picture.rows) +
+                           ", type " + std::to_string(picture.type()) + ", where maps are for " +
+                           text::SizeText(size.width, size.height) + ", BGR");
   }
 }
 

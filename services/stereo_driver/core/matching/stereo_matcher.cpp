@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "common/text/size_text.h"
+
 namespace deixis::stereo_driver {
 namespace {
 
@@ -30,6 +32,9 @@ DepthGeometry GeometryOf(const StereoMatcherConfig& config,
 
 const StereoMatcherConfig& Validated(const StereoMatcherConfig& config) {
   config.Validate();
+  if (config.match_size == Size::kHalf && config.depth_size == Size::kFull) {
+    throw std::logic_error("StereoMatcher: depth cannot be larger than what is matched");
+  }
   config.disparity.Validate();
   config.refinement.Validate();
   return config;
@@ -46,8 +51,6 @@ int SearchedBy(const StereoMatcherConfig& config, const geometry::StereoCalibrat
 
 void StereoMatcherConfig::Validate() const {
   config::Faults faults;
-  faults.Require(match_size == Size::kFull || depth_size == Size::kHalf, "depth_size",
-                 "must be half when match_size is");
   faults.Require(nearest_m >= 0.1, "nearest_m", "must be at least 0.1");
   faults.Require(farthest_m > nearest_m && farthest_m <= 65.0, "farthest_m",
                  "must lie between nearest_m and 65");
@@ -58,8 +61,8 @@ std::string MatchingFault(const StereoMatcherConfig& config,
                           const geometry::StereoCalibration& calibration) {
   const geometry::CameraCalibration& rectified = calibration.rectified;
   const cv::Size size = MatchedSize(config, {rectified.width_px, rectified.height_px});
-  const std::string pictures = "pictures of " + std::to_string(rectified.width_px) + "x" +
-                               std::to_string(rectified.height_px) + " are too ";
+  const std::string pictures =
+      "pictures of " + text::SizeText(rectified.width_px, rectified.height_px) + " are too ";
   const int least_px = std::max(kLeastMatched_px, BlockSide_px(config.disparity));
   if (std::min(size.width, size.height) < least_px) return pictures + "small to be matched";
   const std::int64_t disparities = SearchedBy(config, calibration);

@@ -22,7 +22,7 @@ inline auto EnumNames(Size) {
 
 struct StereoMatcherConfig {
   Size match_size = Size::kHalf;  ///< Full: five times the work, errors a quarter smaller.
-  Size depth_size = Size::kHalf;  ///< Of the published depth; not larger than match_size.
+  Size depth_size = Size::kHalf;  ///< Of the published depth; of pairs not larger.
   double nearest_m = 0.5;         ///< Nearer things have no depth; smaller costs time.
   double farthest_m = 10.0;       ///< Farther things have no depth.
   DisparityConfig disparity;
