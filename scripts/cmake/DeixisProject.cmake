@@ -43,3 +43,14 @@ target_compile_definitions(deixis_flags INTERFACE DEIXIS_VERSION="${PROJECT_VERS
 # and let the compiler vectorise; measured equal or faster than -ffast-math.
 set(DEIXIS_KERNEL_FLAGS
   -O3 -fno-math-errno -fno-trapping-math -fno-signed-zeros -fassociative-math -freciprocal-math)
+
+# Kernels in several versions, of which the processor's own runs: see common/kernels/kernel.h. Not
+# under the sanitisers, which are not ready yet when the version is chosen.
+include(CheckCXXSourceCompiles)
+check_cxx_source_compiles([[
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+  int Twice(int x) { return 2 * x; }
+  int main() { return Twice(0); }]] DEIXIS_COMPILER_HAS_TARGET_CLONES)
+if(DEIXIS_COMPILER_HAS_TARGET_CLONES AND NOT DEIXIS_SANITISE AND NOT DEIXIS_FUZZ)
+  target_compile_definitions(deixis_flags INTERFACE DEIXIS_HAS_TARGET_CLONES)
+endif()

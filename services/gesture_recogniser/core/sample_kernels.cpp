@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "common/kernels/kernel.h"
 #include "services/gesture_recogniser/core/sample_set.h"
 
 namespace deixis::gesture_recogniser {
@@ -11,8 +12,9 @@ namespace {
 
 /// Mean log-density of the window for a sample that is `phase` points into its model and moves
 /// `stride` points per step. Steps before the model's beginning are not compared.
-inline float MeanLogDensity(const ModelTable::Point* points, float phase, float stride,
-                            float amplitude, const Observations& observed) {
+[[gnu::always_inline]] inline float MeanLogDensity(const ModelTable::Point* points, float phase,
+                                                   float stride, float amplitude,
+                                                   const Observations& observed) {
   const int reach = static_cast<int>(phase / stride) + 1;
   const int count = std::max(1, std::min(observed.count, reach));
   float sum = 0.0F;
@@ -27,7 +29,7 @@ inline float MeanLogDensity(const ModelTable::Point* points, float phase, float 
 }
 
 /// e^x by splitting into a power of two and a polynomial; relative error below 1e-4 for |x| < 80.
-inline float FastExp(float x) {
+[[gnu::always_inline]] inline float FastExp(float x) {
   const float scaled = std::min(std::max(x, -80.0F), 80.0F) * 1.44269504F;
   const float whole = std::floor(scaled);
   const float part = (scaled - whole) * 0.693147181F;
@@ -42,7 +44,8 @@ inline float FastExp(float x) {
 
 }  // namespace
 
-void WeighByMotion(const ModelTable& table, const Observations& observed, SampleSet& samples) {
+DEIXIS_KERNEL void WeighByMotion(const ModelTable& table, const Observations& observed,
+                                 SampleSet& samples) {
   const std::size_t count = samples.size();
   for (std::size_t n = 0; n < count; ++n) {
     const float points_per_s = table.PointsPerSecond(samples.model[n]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "common/kernels/kernel.h"
+
 namespace deixis::hand_tracker {
 namespace {
 
@@ -11,14 +13,15 @@ constexpr std::uint8_t kBackground = 0;
 constexpr std::uint8_t kUnknown = 1;
 constexpr std::uint8_t kForeground = 2;
 
-std::uint16_t Moved(int from, int to, int share256) {
+[[gnu::always_inline]] inline std::uint16_t Moved(int from, int to, int share256) {
   return static_cast<std::uint16_t>(from + ((to - from) * share256) / 256);
 }
 
 /// How different a pixel looks from its background, in grey levels: the change of colour once the
 /// brightness is evened out, and a part of the change of brightness, less of it where the pixel may
 /// simply lie in a shadow.
-int Distance(const std::uint8_t* bgr, const std::uint16_t* background) {
+[[gnu::always_inline]] inline int Distance(const std::uint8_t* bgr,
+                                           const std::uint16_t* background) {
   constexpr float kToLevels = 1.0F / (1 << kFixedBits);
   const float b0 = static_cast<float>(background[0]) * kToLevels;
   const float g0 = static_cast<float>(background[1]) * kToLevels;
@@ -36,8 +39,8 @@ int Distance(const std::uint8_t* bgr, const std::uint16_t* background) {
 
 }  // namespace
 
-void FollowRow(const std::uint8_t* bgr, std::uint16_t* recent, int width, int threshold,
-               int share256, std::uint8_t* changed) {
+DEIXIS_KERNEL void FollowRow(const std::uint8_t* bgr, std::uint16_t* recent, int width,
+                             int threshold, int share256, std::uint8_t* changed) {
   for (int x = 0; x < width; ++x) {
     int largest = 0;
     for (int channel = 0; channel < 3; ++channel) {
@@ -50,18 +53,19 @@ void FollowRow(const std::uint8_t* bgr, std::uint16_t* recent, int width, int th
   }
 }
 
-void CountStillRow(const std::uint8_t* changed, int width, std::uint16_t elapsed_ms, int longest_ms,
-                   std::uint16_t* still_ms) {
+DEIXIS_KERNEL void CountStillRow(const std::uint8_t* changed, int width, std::uint16_t elapsed_ms,
+                                 int longest_ms, std::uint16_t* still_ms) {
   for (int x = 0; x < width; ++x) {
     const int longer = std::min(still_ms[x] + elapsed_ms, longest_ms);
     still_ms[x] = changed[x] != 0 ? std::uint16_t{0} : static_cast<std::uint16_t>(longer);
   }
 }
 
-void LearnRow(const LearningRule& rule, const std::uint8_t* bgr, const std::uint16_t* recent,
-              const std::uint8_t* awake, const std::uint16_t* still_ms, const std::uint8_t* held,
-              int width, std::uint16_t* asleep_ms, std::uint16_t* background, std::uint8_t* known,
-              std::uint8_t* knowledge) {
+DEIXIS_KERNEL void LearnRow(const LearningRule& rule, const std::uint8_t* bgr,
+                            const std::uint16_t* recent, const std::uint8_t* awake,
+                            const std::uint16_t* still_ms, const std::uint8_t* held, int width,
+                            std::uint16_t* asleep_ms, std::uint16_t* background,
+                            std::uint8_t* known, std::uint8_t* knowledge) {
   for (int x = 0; x < width; ++x) {
     const int asleep =
         awake[x] != 0 ? 0 : std::min(asleep_ms[x] + rule.elapsed_ms, rule.longest_ms);

@@ -44,7 +44,7 @@ struct Span {
 
 /// Of 0..last, those between the least and the largest of four. Without branches, for vectors of
 /// them. With a corner that is not finite, none: it lies nowhere.
-inline Span SpanOf(float a, float b, float c, float d, float last) {
+[[gnu::always_inline]] inline Span SpanOf(float a, float b, float c, float d, float last) {
   constexpr float kMargin = 1e-3F;  // Rounding opens no crack at a pixel's centre.
   const float least = std::min(std::min(a, b), std::min(c, d)) - kMargin;
   const float largest = std::max(std::max(a, b), std::max(c, d)) + kMargin;

@@ -63,20 +63,22 @@ void DisparityRefiner::Refine(const cv::Mat& left_grey, const cv::Mat& right_gre
   if (config_.iterations == 0 || disparity.cols < kLeastWidth_px) return;
   ToPixels(disparity, start_px_);
   start_px_.copyTo(current_px_);
+  left_grey.convertTo(left_, CV_32F);
+  right_grey.convertTo(right_, CV_32F);
   for (int i = 0; i < config_.iterations; ++i) {
-    Align(left_grey, right_grey);
+    Align();
     Smooth();
   }
   ToSixteenths(current_px_, disparity);
 }
 
-void DisparityRefiner::Align(const cv::Mat& left_grey, const cv::Mat& right_grey) {
+void DisparityRefiner::Align() {
   slope_error_.create(current_px_.size(), CV_32FC1);
   slope_square_.create(current_px_.size(), CV_32FC1);
   const int width = current_px_.cols;
   cv::parallel_for_({0, current_px_.rows}, [&](const cv::Range& rows) {
     for (int y = rows.start; y < rows.end; ++y) {
-      CompareRow(left_grey.ptr(y), right_grey.ptr(y), current_px_.ptr<float>(y), width,
+      CompareRow(left_.ptr<float>(y), right_.ptr<float>(y), current_px_.ptr<float>(y), width,
                  slope_error_.ptr<float>(y), slope_square_.ptr<float>(y));
     }
   });

@@ -34,10 +34,12 @@ class DisparityRefiner {
   void Refine(const cv::Mat& left_grey, const cv::Mat& right_grey, cv::Mat& disparity);
 
  private:
-  void Align(const cv::Mat& left_grey, const cv::Mat& right_grey);
+  void Align();
   void Smooth();
 
   RefinementConfig config_;
+  cv::Mat left_;          ///< CV_32FC1, grey levels: what kernels gather fastest.
+  cv::Mat right_;         ///< CV_32FC1
   cv::Mat start_px_;      ///< CV_32FC1, as the matcher gave it; kAbsent_px where there is none.
   cv::Mat current_px_;    ///< CV_32FC1
   cv::Mat slope_error_;   ///< CV_32FC1, weighted products of slope and difference.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/kernels/kernel.h"
+
 namespace deixis::stereo_driver {
 namespace {
 
@@ -11,36 +13,49 @@ constexpr float kLeastTexture = 20.0F;  // Of slope_square: holds still what has
 constexpr float kLongestStep_px = 0.5F;
 constexpr float kLongestWay_px = 1.0F;
 
-constexpr int kBlock = 64;
+constexpr int kBlock = 256;   // Sums of so many pixels stay in the nearest cache.
+constexpr int kTogether = 7;  // Neighbours of a row that are added in registers; the usual window.
 
-/// Adds, to sum and count, those that agree with `here`.
-void AddAgreeing(const float* others, const float* here, float agree_px, int width, float* sum,
-                 float* count) {
+/// Adds, to sum and count, those of `kCount` neighbours that agree with `here`.
+template <int kCount>
+[[gnu::always_inline]] inline void AddAgreeing(const float* others, const float* here,
+                                               float agree_px, int width, float* sum,
+                                               float* count) {
   for (int x = 0; x < width; ++x) {
-    const float difference = others[x] - here[x];
-    const float agrees = std::abs(difference) < agree_px ? 1.0F : 0.0F;
-    sum[x] += agrees * difference;
-    count[x] += agrees;
+    float sum_here = sum[x];
+    float count_here = count[x];
+    for (int dx = 0; dx < kCount; ++dx) {
+      const float difference = others[x + dx] - here[x];
+      const float agrees = std::abs(difference) < agree_px ? 1.0F : 0.0F;
+      sum_here += agrees * difference;
+      count_here += agrees;
+    }
+    sum[x] = sum_here;
+    count[x] = count_here;
   }
 }
 
-void SmoothBlock(const float* rows, std::int64_t stride, int side, float agree_px, int width,
-                 float* smoothed_px) {
-  float sum[kBlock] = {};
-  float count[kBlock] = {};
+[[gnu::always_inline]] inline void SmoothBlock(const float* rows, std::int64_t stride, int side,
+                                               float agree_px, int width, float* smoothed_px) {
+  float sum[kBlock];
+  float count[kBlock];
+  for (int x = 0; x < width; ++x) sum[x] = count[x] = 0.0F;  // With {}, GCC 12 makes no vectors.
   const float* here = rows + side / 2 * stride + side / 2;
   for (int dy = 0; dy < side; ++dy) {
-    for (int dx = 0; dx < side; ++dx) {
-      AddAgreeing(rows + dy * stride + dx, here, agree_px, width, sum, count);
+    const float* row = rows + dy * stride;
+    int dx = 0;
+    for (; dx + kTogether <= side; dx += kTogether) {
+      AddAgreeing<kTogether>(row + dx, here, agree_px, width, sum, count);
     }
+    for (; dx < side; ++dx) AddAgreeing<1>(row + dx, here, agree_px, width, sum, count);
   }
   for (int x = 0; x < width; ++x) smoothed_px[x] = here[x] + sum[x] / count[x];
 }
 
 }  // namespace
 
-void CompareRow(const std::uint8_t* left, const std::uint8_t* right, const float* disparity_px,
-                int width, float* slope_error, float* slope_square) {
+DEIXIS_KERNEL void CompareRow(const float* left, const float* right, const float* disparity_px,
+                              int width, float* slope_error, float* slope_square) {
   slope_error[0] = slope_square[0] = 0.0F;
   slope_error[width - 1] = slope_square[width - 1] = 0.0F;
   const float last = static_cast<float>(width) - 3.0F;
@@ -52,7 +67,7 @@ void CompareRow(const std::uint8_t* left, const std::uint8_t* right, const float
     const float r0 = right[i - 1], r1 = right[i], r2 = right[i + 1], r3 = right[i + 2];
     const float error = left[x] - (r1 + share * (r2 - r1));
     const float right_slope = 0.5F * ((r2 - r0) + share * (r3 - r1 - r2 + r0));
-    const float left_slope = 0.5F * static_cast<float>(left[x + 1] - left[x - 1]);
+    const float left_slope = 0.5F * (left[x + 1] - left[x - 1]);
     const float slope = 0.5F * (left_slope + right_slope);
     const float scaled = error * (1.0F / kErrorScale);
     const float weight = is_present ? 1.0F / (1.0F + scaled * scaled) : 0.0F;
@@ -61,8 +76,8 @@ void CompareRow(const std::uint8_t* left, const std::uint8_t* right, const float
   }
 }
 
-void StepRow(const float* slope_error, const float* slope_square, const float* start_px, int width,
-             float* disparity_px) {
+DEIXIS_KERNEL void StepRow(const float* slope_error, const float* slope_square,
+                           const float* start_px, int width, float* disparity_px) {
   for (int x = 0; x < width; ++x) {
     const float step = -slope_error[x] / (slope_square[x] + kLeastTexture);
     const float moved =
@@ -73,9 +88,8 @@ void StepRow(const float* slope_error, const float* slope_square, const float* s
   }
 }
 
-void SmoothRow(const float* rows, std::int64_t stride, int side, float agree_px, int width,
-               float* smoothed_px) {
-  // Block by block, so that the sums stay in the nearest cache and the innermost loop is long.
+DEIXIS_KERNEL void SmoothRow(const float* rows, std::int64_t stride, int side, float agree_px,
+                             int width, float* smoothed_px) {
   for (int start = 0; start < width; start += kBlock) {
     SmoothBlock(rows + start, stride, side, agree_px, std::min(kBlock, width - start),
                 smoothed_px + start);

@@ -9,8 +9,8 @@ constexpr float kAbsent_px = -1e4F;
 /// For each pixel of a row: the difference of the left picture and the right one moved by
 /// `disparity_px`, times their mean slope, and that slope squared, both weighted down where they
 /// differ much. 0 where the disparity is absent.
-void CompareRow(const std::uint8_t* left, const std::uint8_t* right, const float* disparity_px,
-                int width, float* slope_error, float* slope_square);
+void CompareRow(const float* left, const float* right, const float* disparity_px, int width,
+                float* slope_error, float* slope_square);
 
 /// One step towards the least squared difference, at most half a pixel long, and never further than
 /// a pixel from `start_px`.
