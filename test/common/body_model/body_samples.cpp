@@ -1,0 +1,65 @@
+#include "test/common/body_model/body_samples.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace deixis::body_model {
+
+using Eigen::Vector3d;
+
+Limb PlainLimb(const std::string& name, int parent) {
+  Limb limb;
+  limb.name = name;
+  limb.parent = parent;
+  limb.shape = {0.05, 0.04, 0.03, 0.02, 0.3};
+  if (parent >= 0) limb.rest_in_parent.translation_m = {0.0, 0.0, 0.3};
+  return limb;
+}
+
+DegreeOfFreedom Dof(const std::string& name, DofKind kind, const Vector3d& axis, double min_rad,
+                    double max_rad) {
+  DegreeOfFreedom dof;
+  dof.name = name;
+  dof.kind = kind;
+  dof.axis = axis;
+  dof.angle_min_rad = min_rad;
+  dof.angle_max_rad = max_rad;
+  return dof;
+}
+
+std::vector<Limb> ArmAndHead() {
+  std::vector<Limb> limbs{PlainLimb("trunk", -1), PlainLimb("upper_arm", 0),
+                          PlainLimb("lower_arm", 1), PlainLimb("hand", 2), PlainLimb("head", 0)};
+  limbs[1].rest_in_parent.rotation =
+      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d(0.2, -1.0, 0.1));
+  limbs[1].rest_in_parent.translation_m = {0.01, -0.18, 0.28};
+  limbs[1].dofs = {Dof("abduction", DofKind::kSwing, Vector3d::UnitX(), -2.0, 2.0),
+                   Dof("flexion", DofKind::kSwing, Vector3d::UnitY(), -2.0, 2.0),
+                   Dof("rotation", DofKind::kTwist, -Vector3d::UnitZ(), -1.6, 1.7)};
+  limbs[2].dofs = {Dof("flexion", DofKind::kHinge, Vector3d::UnitY(), -0.2, 2.6),
+                   Dof("pronation", DofKind::kTwist, Vector3d::UnitZ(), -1.6, 1.6)};
+  limbs[3].dofs = {Dof("flexion", DofKind::kSwing, Vector3d::UnitX(), -1.0, 1.3),
+                   Dof("deviation", DofKind::kSwing, Vector3d::UnitY(), -0.4, 0.6)};
+  return limbs;
+}
+
+BodyPose RandomPose(const BodyModel& model, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  BodyPose pose;
+  const Vector3d turn(unit(random), unit(random), unit(random));
+  pose.frame_from_root.rotation =
+      Eigen::Quaterniond(Eigen::AngleAxisd(3.0 * unit(random), turn.normalized()));
+  pose.frame_from_root.translation_m = {unit(random), unit(random), 2.0 + unit(random)};
+  pose.angles_rad.resize(model.angle_count());
+  int angle = 0;
+  for (const Limb& limb : model.limbs()) {
+    for (const DegreeOfFreedom& dof : limb.dofs) {
+      const double share = 0.5 * (unit(random) + 1.0);
+      pose.angles_rad[angle++] =
+          dof.angle_min_rad + share * (dof.angle_max_rad - dof.angle_min_rad);
+    }
+  }
+  return pose;
+}
+
+}  // namespace deixis::body_model

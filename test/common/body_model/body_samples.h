@@ -1,0 +1,22 @@
+#pragma once
+#include <random>
+#include <vector>
+
+#include "common/body_model/body_model.h"
+
+namespace deixis::body_model {
+
+/// A limb 0.3 m long, at the distal end of one like it.
+Limb PlainLimb(const std::string& name, int parent);
+
+DegreeOfFreedom Dof(const std::string& name, DofKind kind, const Eigen::Vector3d& axis,
+                    double min_rad, double max_rad);
+
+/// A trunk, an arm of three limbs (ball joint at rest to the side, elbow with twist, wrist of two
+/// swings) and a head that is fixed.
+std::vector<Limb> ArmAndHead();
+
+/// Any root, any angles within the envelope.
+BodyPose RandomPose(const BodyModel& model, std::mt19937& random);
+
+}  // namespace deixis::body_model
