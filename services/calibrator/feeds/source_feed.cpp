@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
-#include <opencv2/core/utils/logger.hpp>
 #include <thread>
 
 #include "common/capture/system_clocks.h"
@@ -55,8 +54,9 @@ capture::PairedSources Paired(std::unique_ptr<capture::Source> left,
 }
 
 bool LacksTimes(const capture::SourceConfig& config) {
+  std::error_code ignored;  // What cannot be looked at is not there.
   return config.kind == capture::SourceKind::kFolder &&
-         !std::filesystem::exists(std::filesystem::path(config.path) / "times.csv");
+         !std::filesystem::exists(std::filesystem::path(config.path) / "times.csv", ignored);
 }
 
 void WaitIfLive(const capture::Source& source) {
@@ -136,7 +136,6 @@ capture::SourceConfig ParseSource(const std::string& text, const std::string& op
 }
 
 std::unique_ptr<capture::Source> OpenSource(const capture::SourceConfig& config) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   config::Faults faults;
   config.Check(faults);
   faults.ThrowIfAny();
