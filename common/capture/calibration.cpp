@@ -5,6 +5,7 @@
 
 #include "common/capture/opencv_file.h"
 #include "common/geometry/lens_limits.h"
+#include "common/text/number_text.h"
 #include "common/text/size_text.h"
 
 namespace deixis::capture {
@@ -14,18 +15,11 @@ using geometry::CameraCalibration;
 
 constexpr double kAspectTolerance = 0.01;
 
-std::string Text(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
-
 CalibrationAnswer Guess(cv::Size size, const CalibrationConfig& config) {
   const double fov_rad = config.horizontal_fov_deg * M_PI / 180.0;
   return {geometry::GuessCalibration(size.width, size.height, fov_rad),
           "not calibrated: guessed from a horizontal field of view of " +
-              Text(config.horizontal_fov_deg) + " deg; set " + config.key + ".file"};
+              text::NumberText(config.horizontal_fov_deg) + " deg; set " + config.key + ".file"};
 }
 
 LensFile ReadNamed(const CalibrationConfig& config) {

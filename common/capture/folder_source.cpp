@@ -73,12 +73,19 @@ std::optional<Picture> ReadPicture(const fs::path& file, FolderContent content) 
 
 std::vector<fs::path> FilesInNaturalOrder(const fs::path& folder, const std::string& pattern) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
     const bool is_wanted = fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-    if (entry.is_regular_file() && IsPicture(entry.path()) && is_wanted) {
-      files.push_back(entry.path());
+    std::error_code is_no_file;  // A link in a circle, say.
+    if (is_wanted && IsPicture(entry->path()) && entry->is_regular_file(is_no_file)) {
+      files.push_back(entry->path());
     }
+  }
+  if (error) {
+    throw config::ConfigError("folder '" + folder.string() +
+                              "' cannot be read: " + error.message() + "; check its rights");
   }
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return NaturallyBefore(a.filename().string(), b.filename().string());
@@ -174,7 +181,8 @@ bool NaturallyBefore(const std::string& a, const std::string& b) {
 std::vector<FolderSource::Entry> FolderSource::ListPictures(const SourceConfig& config) {
   const fs::path folder = config.path;
   RequireFolder(config);
-  const bool has_times = fs::exists(folder / "times.csv");
+  std::error_code ignored;  // What cannot be looked at is not there.
+  const bool has_times = fs::exists(folder / "times.csv", ignored);
   if (!has_times && config.rate_hz <= 0.0) {
     throw config::ConfigError("folder '" + config.path + "' has no times.csv; set " + config.key +
                               ".rate_hz or add one (file,time_s)");

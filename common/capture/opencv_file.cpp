@@ -7,7 +7,6 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "common/config/config.h"
 #include "common/geometry/lens_limits.h"
 #include "common/images/picture_size.h"
+#include "common/text/number_text.h"
 #include "common/text/size_text.h"
 
 namespace deixis::capture {
@@ -69,12 +69,6 @@ cv::FileStorage OpenStorage(const std::string& path, const std::string& text) {
   }
   FailIn(path,
          "is not a YAML file of OpenCV (first line %YAML:1.0); write it with its calibration");
-}
-
-std::string Text(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
 }
 
 std::string Either(const std::string& key, const std::string& other_key) {
@@ -150,7 +144,8 @@ void ReadDistortion(const OpenCvFile& file, const LensKeys& keys, CameraCalibrat
   }
   calibration.distortion = std::move(values);
   if (!geometry::IsDistortion(calibration.distortion_model, calibration.distortion)) {
-    file.Fail(name + " has a coefficient beyond " + Text(geometry::kLargestCoefficient) +
+    file.Fail(name + " has a coefficient beyond " +
+              text::NumberText(geometry::kLargestCoefficient) +
               ", which no lens has; calibrate again");
   }
 }
@@ -211,14 +206,15 @@ void RequirePinhole(const OpenCvFile& file, const std::string& name,
   const Eigen::Vector2d& focal_px = lens.focal_px;
   const Eigen::Vector2d& centre_px = lens.principal_point_px;
   if (!geometry::IsFocalLength(focal_px)) {
-    file.Fail(name + " has the focal lengths " + Text(focal_px.x()) + " and " + Text(focal_px.y()) +
-              " px, which are not between " + Text(geometry::kLeastFocal_px) + " and " +
-              Text(geometry::kFarthestLens_px) + "; calibrate again");
+    file.Fail(name + " has the focal lengths " + text::NumberText(focal_px.x()) + " and " +
+              text::NumberText(focal_px.y()) + " px, which are not between " +
+              text::NumberText(geometry::kLeastFocal_px) + " and " +
+              text::NumberText(geometry::kFarthestLens_px) + "; calibrate again");
   }
   if (!geometry::IsPrincipalPoint(centre_px)) {
-    file.Fail(name + " has the principal point " + Text(centre_px.x()) + ", " +
-              Text(centre_px.y()) + " px, which is further from the picture than " +
-              Text(geometry::kFarthestLens_px) + "; calibrate again");
+    file.Fail(name + " has the principal point " + text::NumberText(centre_px.x()) + ", " +
+              text::NumberText(centre_px.y()) + " px, which is further from the picture than " +
+              text::NumberText(geometry::kFarthestLens_px) + "; calibrate again");
   }
 }
 

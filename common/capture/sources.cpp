@@ -1,5 +1,6 @@
 #include "common/capture/sources.h"
 
+#include <opencv2/core/utils/logger.hpp>
 #include <stdexcept>
 
 #include "common/capture/capture.h"
@@ -13,6 +14,8 @@ namespace {
 
 std::unique_ptr<Source> Open(const SourceConfig& config, const Clocks& clocks,
                              FolderContent content) {
+  // OpenCV would say a page on every way in which it failed to open something; ours is one line.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   switch (config.kind) {
     case SourceKind::kDevice:
       return std::make_unique<LiveSource>(DeviceCapture(config, clocks), clocks.monotonic);

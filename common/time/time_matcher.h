@@ -1,14 +1,89 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "common/time/timestamp.h"
 
 namespace deixis {
+
+/// Items of one stream that wait to be matched; their times grow. An item that contradicts one
+/// earlier time takes that one's place, since that one's time was wrong; one that contradicts two
+/// is wrong itself, unless the next agrees with it: then time has begun anew.
+template <typename T>
+class WaitingItems {
+ public:
+  struct Timed {
+    Timestamp time;
+    T item;
+  };
+
+  /// Waits with `capacity` items at most, 1 or more: then the oldest go.
+  explicit WaitingItems(std::size_t capacity) : capacity_(std::max<std::size_t>(capacity, 1)) {}
+
+  void Add(Timestamp time, T item) {
+    if (doubtful_) Decide(time);
+    if (!(before_last_ < time)) {
+      doubtful_ = Timed{time, std::move(item)};
+    } else {
+      Push({time, std::move(item)});
+    }
+  }
+
+  void DropFront() {
+    items_.pop_front();
+    ++dropped_;
+  }
+  void DropAll() {
+    while (!items_.empty()) DropFront();
+    if (doubtful_) ++dropped_;
+    doubtful_.reset();
+  }
+  Timed TakeFront() {
+    Timed front = std::move(items_.front());
+    items_.pop_front();
+    return front;
+  }
+
+  /// Whether two or more wait, and none contradicts them.
+  bool AreTwoSure() const { return items_.size() > 1 && !doubtful_; }
+  const std::deque<Timed>& items() const { return items_; }
+  std::int64_t dropped() const { return dropped_; }
+
+ private:
+  static constexpr Timestamp kNever{std::numeric_limits<std::int64_t>::min()};
+
+  void Push(Timed timed) {
+    for (; !items_.empty() && !(items_.back().time < timed.time); ++dropped_) items_.pop_back();
+    while (items_.size() >= capacity_) DropFront();
+    if (last_ < timed.time) before_last_ = last_;
+    last_ = timed.time;
+    items_.push_back(std::move(timed));
+  }
+
+  /// What becomes of the doubtful item, now that the next one's time is known.
+  void Decide(Timestamp next) {
+    if (doubtful_->time < next && !(last_ < next)) {
+      before_last_ = last_ = kNever;
+      Push(std::move(*doubtful_));
+    } else {
+      ++dropped_;
+    }
+    doubtful_.reset();
+  }
+
+  std::size_t capacity_;
+  std::deque<Timed> items_;
+  std::optional<Timed> doubtful_;
+  Timestamp before_last_ = kNever;  ///< Of the item that came before the last one; it may be gone.
+  Timestamp last_ = kNever;
+  std::int64_t dropped_ = 0;
+};
 
 /// Items of two streams that were taken together.
 template <typename First, typename Second>
@@ -20,11 +95,10 @@ struct TimeMatch {
 };
 
 /// Finds which items of two streams were taken together. Items may arrive in any order between the
-/// streams; within a stream times must grow. An item goes out with the nearest one of the other
-/// stream that is there and no further than the skew; so take a skew below half the period. What
-/// can find no partner any more is dropped and counted: a nearer one of its own stream came, or two
-/// of the other stream lie beyond it. One does not count, its time may be damaged. Time that goes
-/// backwards in a stream begins anew there: what waits and is not earlier is dropped and counted.
+/// streams; within a stream times grow, but one damaged time costs no item but its own. An item
+/// goes out with the nearest one of the other stream that is there and no further than the skew; so
+/// take a skew below half the period. It is dropped and counted when its partner has a nearer one,
+/// or when two of the other stream lie beyond it: the time of one alone may be damaged.
 template <typename First, typename Second>
 class TimeMatcher {
  public:
@@ -32,30 +106,29 @@ class TimeMatcher {
 
   /// Waits with at most `capacity` items per stream: the oldest go when the other stream is silent.
   explicit TimeMatcher(double max_skew_s, std::size_t capacity = 30)
-      : max_skew_s_(max_skew_s), capacity_(capacity) {}
+      : max_skew_s_(max_skew_s), firsts_(capacity), seconds_(capacity) {}
 
-  void AddFirst(Timestamp time, First item) {
-    Add(time, std::move(item), firsts_, unmatched_first_);
-  }
-  void AddSecond(Timestamp time, Second item) {
-    Add(time, std::move(item), seconds_, unmatched_second_);
-  }
+  void AddFirst(Timestamp time, First item) { firsts_.Add(time, std::move(item)); }
+  void AddSecond(Timestamp time, Second item) { seconds_.Add(time, std::move(item)); }
 
   /// The next match, in the order of time; call until there is none.
   std::optional<Match> Next() {
-    while (!firsts_.empty() && !seconds_.empty()) {
-      const double skew_s = SecondsBetween(firsts_.front().time, seconds_.front().time);
-      const bool first_is_late = skew_s<-max_skew_s_, second_is_late = skew_s> max_skew_s_;
-      if (HasNearer(seconds_, firsts_.front().time, std::abs(skew_s)) ||
-          (first_is_late && firsts_.size() > 1)) {
-        Drop(seconds_, unmatched_second_);
-      } else if (HasNearer(firsts_, seconds_.front().time, std::abs(skew_s)) ||
-                 (second_is_late && seconds_.size() > 1)) {
-        Drop(firsts_, unmatched_first_);
-      } else if (first_is_late || second_is_late) {
-        return std::nullopt;
-      } else {
+    while (first_waits() && second_waits()) {
+      const Timestamp first = firsts_.items().front().time;
+      const Timestamp second = seconds_.items().front().time;
+      const double skew_s = SecondsBetween(first, second);
+      if (HasNearer(seconds_, first, std::abs(skew_s))) {
+        seconds_.DropFront();
+      } else if (HasNearer(firsts_, second, std::abs(skew_s))) {
+        firsts_.DropFront();
+      } else if (std::abs(skew_s) <= max_skew_s_) {
         return TakeFronts();
+      } else if (skew_s < 0.0 && firsts_.AreTwoSure()) {
+        seconds_.DropFront();
+      } else if (skew_s > 0.0 && seconds_.AreTwoSure()) {
+        firsts_.DropFront();
+      } else {
+        break;
       }
     }
     return std::nullopt;
@@ -63,63 +136,44 @@ class TimeMatcher {
 
   /// Drops and counts what waits: the streams have ended.
   void Finish() {
-    while (!firsts_.empty()) Drop(firsts_, unmatched_first_);
-    while (!seconds_.empty()) Drop(seconds_, unmatched_second_);
+    firsts_.DropAll();
+    seconds_.DropAll();
   }
 
   /// Whether, when Next() found none, one more of that stream may bring a match.
-  bool wants_first() const { return firsts_.empty() || !seconds_.empty(); }
-  bool wants_second() const { return seconds_.empty() || !firsts_.empty(); }
+  bool wants_first() const { return !first_waits() || second_waits(); }
+  bool wants_second() const { return !second_waits() || first_waits(); }
   /// Whether, when Next() found none, nothing can match any more because streams have ended.
   bool IsOver(bool first_ended, bool second_ended) const {
-    return (first_ended && second_ended) || (first_ended && firsts_.empty()) ||
-           (second_ended && seconds_.empty());
+    return (first_ended && second_ended) || (first_ended && !first_waits()) ||
+           (second_ended && !second_waits());
   }
-  std::int64_t unmatched_first() const { return unmatched_first_; }
-  std::int64_t unmatched_second() const { return unmatched_second_; }
+  std::int64_t unmatched_first() const { return firsts_.dropped(); }
+  std::int64_t unmatched_second() const { return seconds_.dropped(); }
 
  private:
-  template <typename T>
-  struct Timed {
-    Timestamp time;
-    T item;
-  };
-  template <typename T>
-  using Queue = std::deque<Timed<T>>;
+  bool first_waits() const { return !firsts_.items().empty(); }
+  bool second_waits() const { return !seconds_.items().empty(); }
 
+  /// Whether an item behind the front of `waiting` matches `time`, and better than the front does.
   template <typename T>
-  static void Drop(Queue<T>& queue, std::int64_t& count) {
-    queue.pop_front();
-    ++count;
-  }
-
-  template <typename T>
-  void Add(Timestamp time, T item, Queue<T>& queue, std::int64_t& unmatched) {
-    for (; !queue.empty() && !(queue.back().time < time); ++unmatched) queue.pop_back();
-    while (queue.size() >= capacity_) Drop(queue, unmatched);
-    queue.push_back({time, std::move(item)});
-  }
-
-  /// Whether the item behind the front of `queue` is nearer to `time` than the front is.
-  template <typename T>
-  static bool HasNearer(const Queue<T>& queue, Timestamp time, double distance_s) {
-    return queue.size() > 1 && std::abs(SecondsBetween(queue[1].time, time)) < distance_s;
+  bool HasNearer(const WaitingItems<T>& waiting, Timestamp time, double distance_s) const {
+    const auto& items = waiting.items();
+    return std::any_of(items.begin() + 1, items.end(), [&](const auto& item) {
+      const double behind_s = std::abs(SecondsBetween(item.time, time));
+      return behind_s < distance_s && behind_s <= max_skew_s_;
+    });
   }
 
   Match TakeFronts() {
-    Match match{firsts_.front().time, std::move(firsts_.front().item), seconds_.front().time,
-                std::move(seconds_.front().item)};
-    firsts_.pop_front();
-    seconds_.pop_front();
-    return match;
+    auto first = firsts_.TakeFront();
+    auto second = seconds_.TakeFront();
+    return {first.time, std::move(first.item), second.time, std::move(second.item)};
   }
 
   double max_skew_s_;
-  std::size_t capacity_;
-  Queue<First> firsts_;
-  Queue<Second> seconds_;
-  std::int64_t unmatched_first_ = 0;
-  std::int64_t unmatched_second_ = 0;
+  WaitingItems<First> firsts_;
+  WaitingItems<Second> seconds_;
 };
 
 }  // namespace deixis

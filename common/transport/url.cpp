@@ -11,11 +11,17 @@
 namespace deixis::transport {
 namespace {
 
-// Which of two values counts would depend on the reader.
-void RequireKeysOnce(const std::string& text) {
+// Which of two values counts would depend on the reader, and so does what an empty one means.
+void RequireKeysOnceWithValues(const std::string& text) {
   std::set<std::string> keys;
   for (auto at = text.find('?'); at != std::string::npos; at = text.find('&', at + 1)) {
-    const std::string key = text.substr(at + 1, text.find_first_of("=&", at + 1) - at - 1);
+    const auto end = text.find_first_of("=&", at + 1);
+    const std::string key = text.substr(at + 1, end - at - 1);
+    const bool has_value = end != std::string::npos && text[end] == '=' && end + 1 < text.size() &&
+                           text[end + 1] != '&';
+    if (!key.empty() && !has_value) {
+      throw BusError("LCM URL '" + text + "' gives '" + key + "' no value; give one or remove it");
+    }
     if (!key.empty() && !keys.insert(key).second) {
       throw BusError("LCM URL '" + text + "' gives '" + key + "' twice; remove one");
     }
@@ -33,11 +39,13 @@ void RequireInRange(const Url& url, const std::string& name, const std::string& 
 }
 
 // LCM itself takes any number for another one, or says nothing of why it does not open.
-void RequireUdpm(const Url& url) {
+void RequirePort(const Url& url) {
   const auto colon = url.network.find(':');
-  if (colon != std::string::npos) {
-    RequireInRange(url, "the port", url.network.substr(colon + 1), 1, 65535);
-  }
+  if (colon == std::string::npos) return;
+  RequireInRange(url, "the port", url.network.substr(colon + 1), 1, 65535);
+}
+
+void RequireUdpmOptions(const Url& url) {
   const std::string ttl = url.option("ttl");
   if (!ttl.empty()) RequireInRange(url, "ttl", ttl, 0, 255);
   const std::string buffer = url.option("recv_buf_size");
@@ -56,8 +64,9 @@ Url TakeApart(const std::string& text) {
   url.text = text;
   url.provider = text.substr(0, separator);
   url.network = text.substr(separator + 3, text.find('?') - separator - 3);
-  RequireKeysOnce(text);
-  if (url.provider == "udpm") RequireUdpm(url);
+  RequireKeysOnceWithValues(text);
+  if (url.provider == "udpm" || url.provider == "tcpq") RequirePort(url);
+  if (url.provider == "udpm") RequireUdpmOptions(url);
   return url;
 }
 

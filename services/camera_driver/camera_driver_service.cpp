@@ -1,7 +1,5 @@
 #include "services/camera_driver/camera_driver_service.h"
 
-#include <opencv2/core/utils/logger.hpp>
-
 #include "common/capture/system_clocks.h"
 #include "common/logging/log.h"
 #include "common/messages/camera_calibration.h"
@@ -11,15 +9,7 @@
 #include "common/transport/channel_name.h"
 
 namespace deixis::camera_driver {
-namespace {
-
-// OpenCV would say a page on every way in which it failed to open something; ours is one line.
-std::unique_ptr<capture::Source> OpenQuietly(const capture::LoopableSourceConfig& config) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  return capture::MakeSource(config, capture::SystemClocks());
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void CameraDriverServiceConfig::Validate() const {
   config::Faults faults;
@@ -51,7 +41,7 @@ CameraDriverService::CameraDriverService(const CameraDriverServiceConfig& config
 std::unique_ptr<capture::Source> CameraDriverService::SourceOf(
     const CameraDriverServiceConfig& config, transport::Bus& input) {
   if (config.driver.source.kind != capture::SourceKind::kDimos) {
-    return OpenQuietly(config.driver.source);
+    return capture::MakeSource(config.driver.source, capture::SystemClocks());
   }
   return dimos_.Listen(input);
 }

@@ -1,7 +1,5 @@
 #include "services/stereo_driver/stereo_driver_service.h"
 
-#include <opencv2/core/utils/logger.hpp>
-
 #include "common/capture/pushed_source.h"
 #include "common/capture/system_clocks.h"
 #include "common/logging/log.h"
@@ -20,10 +18,21 @@ namespace {
 
 using transport::Delivery;
 
-// OpenCV would say a page on every way in which it failed to open something; ours is one line.
-std::unique_ptr<FrameSource> OpenQuietly(const FrameSourceConfig& config) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  return MakeFrameSource(config, capture::SystemClocks());
+/// What a source's pictures are called on their own.
+struct SideNames {
+  std::string left, right;
+};
+
+SideNames NamesOf(FrameSourceKind kind) {
+  const bool has_depth =
+      kind == FrameSourceKind::kColourAndDepth || kind == FrameSourceKind::kDimos;
+  return has_depth ? SideNames{"colour", "depth"} : SideNames{"left", "right"};
+}
+
+std::string Origin(const FrameSourceConfig& source) {
+  const std::string left = "source.left '" + source.left.path + "'";
+  if (source.kind == FrameSourceKind::kSideBySide) return left;
+  return left + " and source.right '" + source.right.path + "'";
 }
 
 std::int64_t Lost(const FrameSourceStatus& status) {
@@ -71,7 +80,7 @@ StereoDriverService::StereoDriverService(const StereoDriverServiceConfig& config
 std::unique_ptr<FrameSource> StereoDriverService::SourceOf(const StereoDriverServiceConfig& config,
                                                            transport::Bus& input) {
   if (config.driver.source.kind != FrameSourceKind::kDimos) {
-    return OpenQuietly(config.driver.source);
+    return MakeFrameSource(config.driver.source, capture::SystemClocks());
   }
   auto colour = dimos_.Listen(input);
   auto depth = std::make_unique<capture::PushedSource>(config.dimos.depth_channel,
@@ -137,20 +146,20 @@ const capture::MountConfig& StereoDriverService::mount() const {
 void StereoDriverService::LogSummary() const {
   const FrameSourceStatus status = driver_.status();
   if (published_ == 0) {
-    throw config::ConfigError("no frame of source.left '" + config_.driver.source.left.path +
-                              "' and source.right '" + config_.driver.source.right.path +
-                              "' can be used (" + std::to_string(Lost(status)) +
+    throw config::ConfigError("no frame of " + Origin(config_.driver.source) + " can be used (" +
+                              std::to_string(Lost(status)) +
                               " pictures tried); do they belong together in time and size?");
   }
   if (Lost(status) == 0) {
     logging::Info("recording_finished", {{"published", published_}});
     return;
   }
+  const SideNames names = NamesOf(config_.driver.source.kind);
   logging::Warn("recording_finished", {{"published", published_},
                                        {"unreadable", status.pictures.corrupt},
                                        {"last_unreadable", status.pictures.last_corrupt},
-                                       {"unmatched_left", status.unmatched_left},
-                                       {"unmatched_right", status.unmatched_right},
+                                       {"unmatched_" + names.left, status.unmatched_left},
+                                       {"unmatched_" + names.right, status.unmatched_right},
                                        {"unusable", status.unusable}});
 }
 
@@ -175,8 +184,11 @@ transport::Health StereoDriverService::health() const {
   health.Say(driver_.calibration_remark());
   health.SayCount(status.pictures.corrupt, "corrupt pictures");
   health.SayCount(status.pictures.skipped, "skipped pictures");
-  health.SayCount(status.unmatched_left, "left pictures without a right one");
-  health.SayCount(status.unmatched_right, "right pictures without a left one");
+  const SideNames names = NamesOf(config_.driver.source.kind);
+  health.SayCount(status.unmatched_left,
+                  names.left + " pictures without a " + names.right + " one");
+  health.SayCount(status.unmatched_right,
+                  names.right + " pictures without a " + names.left + " one");
   const std::string& why = status.last_unusable;
   health.SayCount(status.unusable, "pictures that make no pair" + (why.empty() ? "" : ": " + why));
   return health;

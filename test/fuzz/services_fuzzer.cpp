@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <stdexcept>
 
 #include "test/fuzz/good_messages.h"
 #include "test/fuzz/hosted_services.h"
@@ -37,6 +38,9 @@ HostedServices& Services() {
 std::uint8_t ChannelOf(const std::string& name) {
   static const std::vector<std::string> channels = HostedServices().channels();
   const auto found = std::find(channels.begin(), channels.end(), name);
+  if (found == channels.end()) {
+    throw std::logic_error("no service listens on " + name + ": see good_messages.cpp");
+  }
   return static_cast<std::uint8_t>(found - channels.begin());
 }
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from deixis_frontend.errors import UserError
-from deixis_frontend.output_files import UnfinishedFile
+from deixis_frontend.output_files import UnfinishedFile, write_text
 
 
 @pytest.fixture(params=["hard links", "no hard links"])
@@ -53,3 +53,25 @@ def test_what_is_not_kept_is_taken_away(file: UnfinishedFile) -> None:
     with file:
         pass
     assert not list(file.target.parent.iterdir())
+
+
+def test_a_text_that_finds_no_room_leaves_the_old_one(tmp_path: Path,
+                                                      monkeypatch: pytest.MonkeyPatch) -> None:
+    target = tmp_path / "x"
+    write_text(target, "old", "--output")
+
+    def fill_the_disk(path: Path, text: str, **_: object) -> None:
+        path.write_bytes(text[:1].encode())
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_text", fill_the_disk)
+    with pytest.raises(UserError, match="x cannot be written: No space left on device: name another"):
+        write_text(target, "new", "--output")
+    assert target.read_bytes() == b"old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_a_text_may_go_to_a_device(tmp_path: Path) -> None:
+    (tmp_path / "nowhere").symlink_to("/dev/null")
+    write_text(tmp_path / "nowhere", "new", "--output")
+    assert list(tmp_path.iterdir()) == [tmp_path / "nowhere"]

@@ -380,3 +380,13 @@ def test_without_multicast_the_cure_is_named(url: str, log: Path,
         result = deixis(url, *arguments, prefix=tuple(without_multicast))
         assert result.returncode == 1
         assert "ip route add 224.0.0.0/4 dev lo" in result.stderr
+
+
+def test_a_logger_that_complains_without_end_goes_on_recording(url: str, tmp_path: Path) -> None:
+    logger = tmp_path / "lcm-logger"
+    logger.write_text("#!/bin/sh\nfor output; do :; done\nyes 'too slow' | head -c 1000000 >&2\n"
+                      "echo recorded > \"$output\"\nexec sleep 60\n", encoding="ascii")
+    logger.chmod(0o755)
+    result = deixis(url, "record", "--seconds", "2", "-o", tmp_path / "x.lcmlog",
+                    PATH=f"{tmp_path}:{os.environ['PATH']}")
+    assert (tmp_path / "x.lcmlog").read_text(encoding="ascii") == "recorded\n", result.stderr

@@ -45,40 +45,45 @@ std::string BrokenDecode(Bytes bytes) {
   return is_same ? "" : "encodes to other bytes";
 }
 
-// `Messages` are the types that the codec of Value reads.
+// `Messages` are the types that the codec of Value reads. Whether it takes the message.
 template <typename Value, typename... Messages>
-void RequireSoundCodec(Bytes bytes) {
-  if (((messages::Fingerprint(bytes) != Messages::getHash()) && ...)) return;
+bool RequireSoundCodec(Bytes bytes) {
+  if (((messages::Fingerprint(bytes) != Messages::getHash()) && ...)) return false;
   Decoded<Value> decoded;
   try {
     decoded = Codec<Value>::Decode(bytes);
   } catch (const messages::Rejected&) {
-    return;
+    return false;
   }
   const auto again =
       Codec<Value>::Encode(decoded.value, std::max(decoded.sequence, std::int64_t{0}));
   Codec<Value>::Decode({again.data(), again.size()});
+  return true;
 }
 
-void RequireSoundCodecs(Bytes bytes) {
-  RequireSoundCodec<geometry::CameraCalibration, camera_calibration_t, sensor_msgs::CameraInfo>(
-      bytes);
-  RequireSoundCodec<geometry::CameraPose, bot_core::rigid_transform_t>(bytes);
-  RequireSoundCodec<geometry::FrameTransforms, tf2_msgs::TFMessage>(bytes);
-  RequireSoundCodec<images::DepthImage, sensor_msgs::Image>(bytes);
-  RequireSoundCodec<scene::Gesture, gesture_t>(bytes);
-  RequireSoundCodec<scene::GestureState, gesture_state_t>(bytes);
-  RequireSoundCodec<scene::Hands, hand_tracks_t>(bytes);
-  RequireSoundCodec<images::EncodedImage, bot_core::image_t>(bytes);
-  RequireSoundCodec<images::Image, bot_core::image_t, bot_core::images_t, sensor_msgs::Image,
-                    sensor_msgs::CompressedImage>(bytes);
-  RequireSoundCodec<scene::Objects, objects_t>(bytes);
-  RequireSoundCodec<images::StereoImage, bot_core::images_t>(bytes);
-  RequireSoundCodec<images::StereoPair, bot_core::images_t>(bytes);
-  RequireSoundCodec<images::EncodedStereoPair, bot_core::images_t>(bytes);
-  RequireSoundCodec<images::RgbdImage, kinect::frame_msg_t>(bytes);
-  RequireSoundCodec<geometry::StereoCalibration, stereo_calibration_t>(bytes);
-  RequireSoundCodec<messages::ServiceStatus, service_status_t>(bytes);
+/// How many take the message.
+int RequireSoundCodecs(Bytes bytes) {
+  int takers = 0;
+  takers +=
+      RequireSoundCodec<geometry::CameraCalibration, camera_calibration_t, sensor_msgs::CameraInfo>(
+          bytes);
+  takers += RequireSoundCodec<geometry::CameraPose, bot_core::rigid_transform_t>(bytes);
+  takers += RequireSoundCodec<geometry::FrameTransforms, tf2_msgs::TFMessage>(bytes);
+  takers += RequireSoundCodec<images::DepthImage, sensor_msgs::Image>(bytes);
+  takers += RequireSoundCodec<scene::Gesture, gesture_t>(bytes);
+  takers += RequireSoundCodec<scene::GestureState, gesture_state_t>(bytes);
+  takers += RequireSoundCodec<scene::Hands, hand_tracks_t>(bytes);
+  takers += RequireSoundCodec<images::EncodedImage, bot_core::image_t>(bytes);
+  takers += RequireSoundCodec<images::Image, bot_core::image_t, bot_core::images_t,
+                              sensor_msgs::Image, sensor_msgs::CompressedImage>(bytes);
+  takers += RequireSoundCodec<scene::Objects, objects_t>(bytes);
+  takers += RequireSoundCodec<images::StereoImage, bot_core::images_t>(bytes);
+  takers += RequireSoundCodec<images::StereoPair, bot_core::images_t>(bytes);
+  takers += RequireSoundCodec<images::EncodedStereoPair, bot_core::images_t>(bytes);
+  takers += RequireSoundCodec<images::RgbdImage, kinect::frame_msg_t>(bytes);
+  takers += RequireSoundCodec<geometry::StereoCalibration, stereo_calibration_t>(bytes);
+  takers += RequireSoundCodec<messages::ServiceStatus, service_status_t>(bytes);
+  return takers;
 }
 
 std::string FirstBroken(Bytes bytes) {
@@ -95,6 +100,10 @@ std::string FirstBroken(Bytes bytes) {
 }
 
 }  // namespace
+
+bool IsUnderstood(Bytes bytes) {
+  return messages::CheckWire(bytes) == messages::WireFault::kNone && RequireSoundCodecs(bytes) > 0;
+}
 
 std::string BrokenProperty(Bytes bytes) {
   try {

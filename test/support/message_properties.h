@@ -13,4 +13,7 @@ namespace deixis::test {
 /// Returns what does not hold, "" when all does.
 std::string BrokenProperty(messages::Bytes bytes);
 
+/// Whether CheckWire accepts them and a codec makes a value of them.
+bool IsUnderstood(messages::Bytes bytes);
+
 }  // namespace deixis::test

@@ -23,14 +23,6 @@ def require_folder(path: Path, option: str) -> None:
     _require_writable(path, path, option)
 
 
-def write_text(path: Path, text: str, option: str) -> None:
-    """Writes a file; raises UserError when that fails."""
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise _refusal(path, option, error) from None
-
-
 class UnfinishedFile:
     """A file that gets its name when it is complete; till then it is <name>.<pid>.part beside it.
 
@@ -107,6 +99,23 @@ class UnfinishedFile:
 
     def _nameless(self, fault: str, cure: str) -> UserError:
         return UserError(f"{fault}: what was written is kept in {self.path}: {cure}")
+
+
+def write_text(path: Path, text: str, option: str) -> None:
+    """Writes a file, or leaves the old one as it is and raises UserError."""
+    if _exists(path, option) and not path.resolve().is_file():
+        _write(path, text, path, option)  # /dev/stdout, say
+        return
+    with UnfinishedFile(path, option, may_replace=True) as file:
+        _write(file.path, text, path, option)
+        file.keep()
+
+
+def _write(path: Path, text: str, named: Path, option: str) -> None:
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise _refusal(named, option, error) from None
 
 
 def _exists(path: Path, option: str) -> bool:

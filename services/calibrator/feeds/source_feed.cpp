@@ -1,9 +1,9 @@
 #include "services/calibrator/feeds/source_feed.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
-#include <opencv2/core/utils/logger.hpp>
 #include <thread>
 
 #include "common/capture/system_clocks.h"
@@ -43,9 +43,20 @@ double MostApart_s(const std::array<capture::Grab, 2>& grabs) {
   return most_s;
 }
 
+capture::PairedSources Paired(std::unique_ptr<capture::Source> left,
+                              std::unique_ptr<capture::Source> right) {
+  if (left->status().is_live != right->status().is_live) {
+    throw config::ConfigError("--source and --right-source must both be live or both recordings");
+  }
+  std::array<capture::Grab, 2> begun{left->Next(), right->Next()};
+  const double most_apart_s = MostApart_s(begun);
+  return {std::move(left), std::move(right), most_apart_s, std::move(begun)};
+}
+
 bool LacksTimes(const capture::SourceConfig& config) {
+  std::error_code ignored;  // What cannot be looked at is not there.
   return config.kind == capture::SourceKind::kFolder &&
-         !std::filesystem::exists(std::filesystem::path(config.path) / "times.csv");
+         !std::filesystem::exists(std::filesystem::path(config.path) / "times.csv", ignored);
 }
 
 void WaitIfLive(const capture::Source& source) {
@@ -71,71 +82,28 @@ std::string SourceFeed::trouble() const { return TroubleOf(source_->status()); }
 
 TwoSourceFeed::TwoSourceFeed(std::unique_ptr<capture::Source> left,
                              std::unique_ptr<capture::Source> right, FeedKind kind)
-    : kind_(kind) {
-  sources_.push_back(std::move(left));
-  sources_.push_back(std::move(right));
-  if (sources_[0]->status().is_live != sources_[1]->status().is_live) {
-    throw config::ConfigError("--source and --right-source must both be live or both recordings");
-  }
-  std::array<capture::Grab, 2> first{sources_[0]->Next(), sources_[1]->Next()};
-  most_apart_s_ = MostApart_s(first);
-  matcher_ = TimeMatcher<capture::Picture, capture::Picture>(most_apart_s_);
-  for (std::size_t side = 0; side < first.size(); ++side) Keep(side, std::move(first[side]));
-}
+    : kind_(kind), sources_(Paired(std::move(left), std::move(right))) {}
 
 Take TwoSourceFeed::Next() {
-  if (auto pair = NextPair()) return {capture::SourceState::kPicture, std::move(pair)};
-  for (std::size_t side = 0; side < states_.size(); ++side) Fetch(side);
-  if (auto pair = NextPair()) return {capture::SourceState::kPicture, std::move(pair)};
-  if (HasEnded()) {
-    matcher_.Finish();
-    return {capture::SourceState::kFinished, std::nullopt};
-  }
-  WaitIfLive(*sources_[0]);
-  return {capture::SourceState::kWaiting, std::nullopt};
-}
-
-std::optional<Sight> TwoSourceFeed::NextPair() {
-  auto match = matcher_.Next();
-  if (!match) return std::nullopt;
-  return Sight{
-      "pair " + std::to_string(++pairs_), match->first_time, {match->first.bgr, match->second.bgr}};
-}
-
-// Of a live camera the newest picture is wanted, of a recording the next one.
-void TwoSourceFeed::Fetch(std::size_t side) {
-  if (states_[side] == capture::SourceState::kFinished) return;
-  const bool is_wanted = side == 0 ? matcher_.wants_first() : matcher_.wants_second();
-  if (kind() == FeedKind::kLive || is_wanted) Keep(side, sources_[side]->Next());
-}
-
-void TwoSourceFeed::Keep(std::size_t side, capture::Grab grab) {
-  states_[side] = grab.state;
-  if (!grab.picture) return;
-  const Timestamp time = grab.picture->time;
-  if (side == 0) {
-    matcher_.AddFirst(time, std::move(*grab.picture));
-  } else {
-    matcher_.AddSecond(time, std::move(*grab.picture));
-  }
-}
-
-bool TwoSourceFeed::HasEnded() const {
-  return matcher_.IsOver(states_[0] == capture::SourceState::kFinished,
-                         states_[1] == capture::SourceState::kFinished);
+  capture::PairGrab grab = sources_.Next();
+  if (grab.state == capture::SourceState::kWaiting) WaitIfLive(sources_.first());
+  if (!grab.pair) return {grab.state, std::nullopt};
+  return {grab.state, Sight{"pair " + std::to_string(++pairs_),
+                            grab.pair->first_time,
+                            {grab.pair->first.bgr, grab.pair->second.bgr}}};
 }
 
 FeedKind TwoSourceFeed::kind() const { return kind_; }
 
 std::string TwoSourceFeed::trouble() const {
-  for (const auto& source : sources_) {
-    const std::string trouble = TroubleOf(source->status());
+  for (const capture::Source* source : {&sources_.first(), &sources_.second()}) {
+    std::string trouble = TroubleOf(source->status());
     if (!trouble.empty()) return trouble;
   }
-  const std::int64_t unpaired = matcher_.unmatched_first() + matcher_.unmatched_second();
+  const std::int64_t unpaired = sources_.unmatched_first() + sources_.unmatched_second();
   if (unpaired == 0) return "";
-  return std::to_string(unpaired) +
-         Figures(" pictures had none of the other camera within %.0f ms", 1e3 * most_apart_s_);
+  return std::to_string(unpaired) + Figures(" pictures had none of the other camera within %.0f ms",
+                                            1e3 * sources_.max_skew_s());
 }
 
 void TimeByOrderUnlessAllHaveTimes(std::vector<capture::SourceConfig>& configs) {
@@ -168,7 +136,6 @@ capture::SourceConfig ParseSource(const std::string& text, const std::string& op
 }
 
 std::unique_ptr<capture::Source> OpenSource(const capture::SourceConfig& config) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   config::Faults faults;
   config.Check(faults);
   faults.ThrowIfAny();

@@ -1,8 +1,7 @@
 #pragma once
-#include <array>
 
+#include "common/capture/paired_sources.h"
 #include "common/capture/sources.h"
-#include "common/time/time_matcher.h"
 #include "services/calibrator/feeds/feed.h"
 
 namespace deixis::calibrator {
@@ -42,16 +41,8 @@ class TwoSourceFeed final : public Feed {
   std::string trouble() const override;
 
  private:
-  std::optional<Sight> NextPair();
-  void Fetch(std::size_t side);
-  void Keep(std::size_t side, capture::Grab grab);
-  bool HasEnded() const;
-
-  std::vector<std::unique_ptr<capture::Source>> sources_;  ///< Left, right.
   FeedKind kind_;
-  std::array<capture::SourceState, 2> states_{};  ///< What each one said last.
-  double most_apart_s_ = 0.0;
-  TimeMatcher<capture::Picture, capture::Picture> matcher_{0.0};
+  capture::PairedSources sources_;  ///< Left, right.
   int pairs_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/capture/picture_file.h"
@@ -70,6 +71,13 @@ TEST_F(FolderSourceTest, TakesOnlyNamesThatMatchThePattern) {
   SourceConfig config = Config(10.0);
   config.pattern = "[0-9][0-9][0-9].png";
   FolderSource source(config);
+  EXPECT_THAT(Greys(source), ElementsAre(10));
+}
+
+TEST_F(FolderSourceTest, PassesOverLinksThatLeadInACircle) {
+  std::filesystem::create_symlink("circle.png", folder_.path() / "circle.png");
+  AddPicture("1.png", 10);
+  FolderSource source(Config(10.0));
   EXPECT_THAT(Greys(source), ElementsAre(10));
 }
 

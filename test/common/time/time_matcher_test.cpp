@@ -80,11 +80,13 @@ TEST_F(TimeMatcherTest, WaitsWithNoMoreThanItsCapacityWhenTheOtherStreamIsSilent
   EXPECT_THAT(Matches(), ElementsAre("a297b297"));
 }
 
-TEST_F(TimeMatcherTest, BeginsAnewWhenTimeGoesBackwards) {
+TEST_F(TimeMatcherTest, BeginsAnewWhenTwoTimesGoBackwards) {
   First(1'000'000);
   First(1'000'033);
   First(0);
   Second(0);
+  EXPECT_THAT(Matches(), IsEmpty());
+  First(33);
   EXPECT_THAT(Matches(), ElementsAre("a0b0"));
   EXPECT_EQ(matcher_.unmatched_first(), 2);
 }
@@ -121,6 +123,48 @@ TEST_F(TimeMatcherTest, LosesNothingToOneTimeLongAgo) {
   EXPECT_THAT(Matches(), ElementsAre("a1000000b1000001"));
   EXPECT_EQ(matcher_.unmatched_second(), 1);
 }
+
+/// Ten items of either stream, one of the first with a damaged time, while one stream is late.
+struct Damage {
+  int damaged;
+  std::int64_t says_ms;
+  int first_is_late;
+  int second_is_late;
+};
+
+class OneDamagedTime : public TimeMatcherTest, public testing::WithParamInterface<Damage> {};
+
+TEST_P(OneDamagedTime, CostsItsOwnItemOnly) {
+  const Damage& damage = GetParam();
+  std::vector<std::string> matches;
+  const auto note = [&] {
+    for (std::string& match : Matches()) matches.push_back(std::move(match));
+  };
+  std::vector<std::string> expected;
+  for (int i = 1; i <= 10; ++i) {
+    const std::string time = std::to_string(33 * i);
+    if (i != damage.damaged) expected.push_back("a" + time + "b" + time);
+  }
+  for (int i = 1; i <= 13; ++i) {
+    const int first = i - damage.first_is_late, second = i - damage.second_is_late;
+    if (first >= 1 && first <= 10) First(first == damage.damaged ? damage.says_ms : 33 * first);
+    note();
+    if (second >= 1 && second <= 10) Second(33 * second);
+    note();
+  }
+  EXPECT_EQ(matches, expected);
+  matcher_.Finish();
+  EXPECT_EQ(matcher_.unmatched_first(), 1);
+  EXPECT_EQ(matcher_.unmatched_second(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Anywhere, OneDamagedTime,
+                         testing::Values(Damage{1, 1'000'000, 0, 0}, Damage{1, 1'000'000, 3, 0},
+                                         Damage{1, 1'000'000, 0, 3}, Damage{5, 1'000'000, 0, 0},
+                                         Damage{5, 1'000'000, 3, 0}, Damage{5, 1'000'000, 0, 3},
+                                         Damage{10, 1'000'000, 0, 3}, Damage{5, 0, 0, 0},
+                                         Damage{5, 0, 3, 0}, Damage{5, 0, 0, 3},
+                                         Damage{10, 0, 3, 0}, Damage{3, 0, 0, 3}));
 
 TEST_F(TimeMatcherTest, FollowsBothStreamsIntoAnotherTime) {
   First(0);

@@ -76,6 +76,21 @@ TEST(Url, WithNumbersThatLcmWouldMisreadNamesThem) {
   EXPECT_NO_THROW(resolving(":65535?ttl=255&recv_buf_size=2147483647")());
 }
 
+TEST(Url, WithAKeyButNoValueIsAnError) {
+  for (const std::string text : {"udpm://239.255.1.1:7000?recv_buf_size=", "udpm://?ttl=&x=1",
+                                 "udpm://?ttl", "file:///tmp/x?mode="}) {
+    EXPECT_THAT([&] { ResolveUrl(text, 1000); },
+                testing::ThrowsMessage<BusError>(testing::HasSubstr("no value")))
+        << text;
+  }
+}
+
+TEST(Url, OfTcpqNeedsAPortToo) {
+  EXPECT_THAT([] { ResolveUrl("tcpq://127.0.0.1:99999", 1000); },
+              testing::ThrowsMessage<BusError>(testing::HasSubstr("the port must be")));
+  EXPECT_NO_THROW(ResolveUrl("tcpq://127.0.0.1:7700", 1000));
+}
+
 TEST(Url, OfAnUnknownProviderIsAnErrorWhenOpened) {
   BusOptions options;
   options.url = "carrier_pigeon://";

@@ -67,6 +67,23 @@ TEST(MatchedSource, EndsWithTheShorterRecording) {
   EXPECT_EQ(source.Next().state, SourceState::kFinished);
 }
 
+TEST(MatchedSource, LosesOnlyWhatOneRecordingLacks) {
+  std::vector<std::int64_t> all, scattered, with_gap;
+  for (std::int64_t i = 0; i < 100; ++i) {
+    all.push_back(100 * i);
+    if (i % 12 != 7) scattered.push_back(100 * i + 2);
+    if (i < 30 || i >= 50) with_gap.push_back(100 * i + 2);
+  }
+  for (const auto& lacking : {scattered, with_gap}) {
+    MatchedSource right(Script(all), Script(lacking), 0.010, ComposePair);
+    EXPECT_EQ(TimesOf(right).size(), lacking.size());
+    EXPECT_EQ(right.status().unmatched_right, 0);
+    MatchedSource left(Script(lacking), Script(all), 0.010, ComposePair);
+    EXPECT_EQ(TimesOf(left).size(), lacking.size());
+    EXPECT_EQ(left.status().unmatched_left, 0);
+  }
+}
+
 TEST(MatchedSource, PassesOverPicturesOfTwoSizes) {
   std::vector<Picture> right{PictureAt(0, {32, 24}), PictureAt(33'000)};
   MatchedSource source(Script({0, 33}), std::make_unique<ScriptedSource>(std::move(right)), 0.010,

@@ -357,6 +357,23 @@ TEST_F(StereoDriverServiceTest, SaysWhenNothingOfARecordingBelongsTogether) {
               testing::ThrowsMessage<config::ConfigError>(HasSubstr("do they belong together")));
 }
 
+TEST_F(StereoDriverServiceTest, NamesColourAndDepthAndOneSourceAsWhatTheyAre) {
+  UseFolders(FrameSourceKind::kColourAndDepth);
+  Write("left1.png", pair_.left.bgr);
+  Write("right1.png", cv::Mat(pair_.left.bgr.size(), CV_16UC1, cv::Scalar(1500)));
+  Write("right2.png", cv::Mat(pair_.left.bgr.size(), CV_16UC1, cv::Scalar(1500)));
+  Write("right3.png", cv::Mat(pair_.left.bgr.size(), CV_16UC1, cv::Scalar(1500)));
+  StereoDriverService service(config_, bus_, bus_);
+  while (service.Step() != program::StepResult::kFinished) {
+  }
+  EXPECT_THAT(service.health().text, HasSubstr("depth pictures without a colour one"));
+  Write("left1.png", cv::Mat(10, 21, CV_8UC3, cv::Scalar(0, 0, 0)));
+  UseFolders(FrameSourceKind::kSideBySide);
+  EXPECT_THAT([&] { RunToTheEnd(); }, testing::ThrowsMessage<config::ConfigError>(
+                                          testing::AllOf(HasSubstr("no frame of source.left '"),
+                                                         testing::Not(HasSubstr("source.right")))));
+}
+
 TEST_F(StereoDriverServiceTest, SaysHowManyPicturesHadNoPartner) {
   UseFolders(FrameSourceKind::kTwoCameras);
   Write("left1.png", pair_.left.bgr);

@@ -9,7 +9,8 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from deixis_frontend import layout as layouts
@@ -24,6 +25,7 @@ from deixis_frontend.output_files import UnfinishedFile
 
 _POLL_S = 0.1
 _SAY_EVERY_S = 2.0
+_MOST_ERRORS = 50  # lines
 _DROPPED = re.compile(r"Dropped (\d+) packet")  # in what lcm-logger writes
 
 
@@ -53,33 +55,40 @@ def run(arguments: argparse.Namespace) -> int:
                                   stderr=subprocess.PIPE, text=True, errors="replace",
                                   start_new_session=True,
                                   preexec_fn=end_with_parent(signal.SIGINT))
-        losses = _Losses(logger)
+        words = _Words(logger)
         _wait(logger, arguments.seconds, file, let_through)
-    return _conclude(logger, file, losses)
+    return _conclude(logger, file, words)
 
 
-class _Losses:
-    """Counts what the logger says that it has dropped, since the disk was too slow.
+class _Words:
+    """What the logger says: read all the time, since it would stop when nobody took it.
 
-    It says so once per second, on stdout; what it drops in its last second it does not say.
+    What it has dropped, since the disk was too slow, it says once per second, on stdout; what it
+    drops in its last second it does not say.
     """
 
     def __init__(self, logger: subprocess.Popen[str]) -> None:
-        self._logger = logger
+        assert logger.stdout is not None and logger.stderr is not None
         self._dropped = 0
-        self._reader = threading.Thread(target=self._read, daemon=True)
-        self._reader.start()
+        self._last_errors: deque[str] = deque(maxlen=_MOST_ERRORS)
+        self._readers = [threading.Thread(target=self._count_drops, args=[logger.stdout], daemon=True),
+                         threading.Thread(target=self._keep_errors, args=[logger.stderr], daemon=True)]
+        for reader in self._readers:
+            reader.start()
 
-    def total(self) -> int:
-        """Messages dropped, at least; to be asked when the logger has ended."""
-        self._reader.join()
-        return self._dropped
+    def end(self) -> tuple[int, list[str]]:
+        """Messages dropped, at least, and its last errors; to be asked when the logger has ended."""
+        for reader in self._readers:
+            reader.join()
+        return self._dropped, list(self._last_errors)
 
-    def _read(self) -> None:
-        assert self._logger.stdout is not None
-        for line in self._logger.stdout:
+    def _count_drops(self, lines: Iterable[str]) -> None:
+        for line in lines:
             if match := _DROPPED.search(line):
                 self._dropped += int(match[1])
+
+    def _keep_errors(self, lines: Iterable[str]) -> None:
+        self._last_errors.extend(line.strip() for line in lines if line.strip())
 
 
 def _announce(file: UnfinishedFile, cure: str) -> None:
@@ -127,11 +136,10 @@ def _wait(logger: subprocess.Popen[str], seconds: float | None, file: Unfinished
         logger.send_signal(signal.SIGINT)  # It is in a session of its own: nobody else ends it.
 
 
-def _conclude(logger: subprocess.Popen[str], file: UnfinishedFile, losses: _Losses) -> int:
-    assert logger.stderr is not None
-    said = logger.stderr.read().strip().splitlines()
+def _conclude(logger: subprocess.Popen[str], file: UnfinishedFile, words: _Words) -> int:
     logger.wait()
-    if dropped := losses.total():
+    dropped, said = words.end()
+    if dropped:
         print(f"deixis: at least {dropped} messages were not recorded, since the disk was too slow:"
               " record fewer channels, or to a faster disk", file=sys.stderr)
     is_empty = not file.size

@@ -6,7 +6,7 @@ import math
 from collections import deque
 from dataclasses import dataclass, field
 
-LARGEST_GAP = 100_000  # a larger step is a publisher that counts otherwise; as in bus.cpp
+LARGEST_GAP = 100_000  # a larger step is a publisher that counts otherwise; as in publisher_sequences.cpp
 MOST_PUBLISHERS = 200  # of a channel, whose numbers are known: noise is not to fill the memory
 HEADER = ("channel", "Hz", "mean ms", "min ms", "max ms", "jitter ms", "lost", "longest gap ms",
           "kB/s", "messages")

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <opencv2/core/eigen.hpp>
-#include <sstream>
 
 #include "common/geometry/lens_limits.h"
+#include "common/text/number_text.h"
 #include "common/text/size_text.h"
 
 namespace deixis::stereo_driver {
@@ -13,22 +13,15 @@ namespace {
 using capture::LensFile;
 using capture::OpenCvFile;
 
-/// No integer: it can be of any size.
-std::string Text(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 /// The translation of the first camera's origin into the second camera's frame, judged.
 Eigen::Vector3d ReadTranslation(const OpenCvFile& file, double unit_m,
                                 const BaselineLimits& limits) {
   const Eigen::Vector3d translation_m = ReadMatrix(file, "T", 3, 1) * unit_m;
   const double baseline_mm = std::round(translation_m.norm() * 1000.0);
   if (!(baseline_mm >= limits.least_mm && baseline_mm <= limits.largest_mm)) {
-    file.Fail("T makes a baseline of " + Text(baseline_mm) + " mm, which is not between " +
-              Text(limits.least_mm) + " and " + Text(limits.largest_mm) + "; set " +
-              limits.unit_key +
+    file.Fail("T makes a baseline of " + text::NumberText(baseline_mm) +
+              " mm, which is not between " + text::NumberText(limits.least_mm) + " and " +
+              text::NumberText(limits.largest_mm) + "; set " + limits.unit_key +
               " to the metres per unit of T (0.001 when it is in millimetres, 0.025 when it counts "
               "board squares of 25 mm)");
   }

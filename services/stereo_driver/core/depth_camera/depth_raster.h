@@ -87,6 +87,7 @@ class DepthRaster {
  private:
   /// The nearest wins; 0, nothing, counts as the farthest: one below it is the largest number.
   static void Put(float z_mm, std::uint16_t& pixel) {
+    if (!(z_mm > 0.0F)) return;  // Beyond the corners it may lead behind the camera.
     const auto rounded = static_cast<std::uint16_t>(std::min(z_mm + 0.5F, 65535.0F));
     const auto further = [](std::uint16_t value) { return static_cast<std::uint16_t>(value - 1); };
     if (further(rounded) < further(pixel)) pixel = rounded;

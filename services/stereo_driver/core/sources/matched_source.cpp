@@ -12,14 +12,6 @@ using capture::Source;
 using capture::SourceState;
 using capture::SourceStatus;
 
-// Pictures of either side that may wait for one of the other: a decoded one may take 200 MB. So
-// many periods may one camera be later than the other.
-constexpr std::size_t kMostWaiting = 5;
-
-// What waits in a live camera is the newest picture, which would be lost; in a recording, the next
-// one.
-bool KeepsWhatIsNotFetched(const Source& source) { return !source.status().is_live; }
-
 SourceStatus Together(const SourceStatus& left, const SourceStatus& right) {
   SourceStatus status = left;
   status.is_live = left.is_live && right.is_live;
@@ -44,54 +36,22 @@ cv::Mat InMillimetres(const cv::Mat& depth, double unit_mm) {
 
 MatchedSource::MatchedSource(std::unique_ptr<Source> left, std::unique_ptr<Source> right,
                              double max_skew_s, Compose compose)
-    : left_(std::move(left)),
-      right_(std::move(right)),
-      compose_(std::move(compose)),
-      matcher_(max_skew_s, kMostWaiting) {}
+    : sources_(std::move(left), std::move(right), max_skew_s), compose_(std::move(compose)) {}
 
 FrameGrab MatchedSource::Next() {
-  if (auto frame = NextMatch()) return {SourceState::kPicture, std::move(frame)};
-  FetchLeft();
-  FetchRight();
-  if (auto frame = NextMatch()) return {SourceState::kPicture, std::move(frame)};
-  if (!HasEnded()) return {SourceState::kWaiting, std::nullopt};
-  matcher_.Finish();
-  return {SourceState::kFinished, std::nullopt};
-}
-
-std::optional<Frame> MatchedSource::NextMatch() {
-  while (const auto match = matcher_.Next()) {
-    if (auto frame = compose_(match->first, match->second)) return frame;
-    ++unusable_;
+  const capture::PairGrab grab = sources_.Next();
+  if (!grab.pair) return {grab.state, std::nullopt};
+  if (auto frame = compose_(grab.pair->first, grab.pair->second)) {
+    return {SourceState::kPicture, std::move(frame)};
   }
-  return std::nullopt;
-}
-
-void MatchedSource::FetchLeft() {
-  if (left_state_ == SourceState::kFinished) return;
-  if (!matcher_.wants_first() && KeepsWhatIsNotFetched(*left_)) return;
-  capture::Grab grab = left_->Next();
-  left_state_ = grab.state;
-  if (grab.picture) matcher_.AddFirst(grab.picture->time, std::move(*grab.picture));
-}
-
-void MatchedSource::FetchRight() {
-  if (right_state_ == SourceState::kFinished) return;
-  if (!matcher_.wants_second() && KeepsWhatIsNotFetched(*right_)) return;
-  capture::Grab grab = right_->Next();
-  right_state_ = grab.state;
-  if (grab.picture) matcher_.AddSecond(grab.picture->time, std::move(*grab.picture));
-}
-
-bool MatchedSource::HasEnded() const {
-  return matcher_.IsOver(left_state_ == SourceState::kFinished,
-                         right_state_ == SourceState::kFinished);
+  ++unusable_;
+  return {SourceState::kWaiting, std::nullopt};
 }
 
 FrameSourceStatus MatchedSource::status() const {
-  return {Together(left_->status(), right_->status()),
-          matcher_.unmatched_first(),
-          matcher_.unmatched_second(),
+  return {Together(sources_.first().status(), sources_.second().status()),
+          sources_.unmatched_first(),
+          sources_.unmatched_second(),
           unusable_,
           {}};
 }

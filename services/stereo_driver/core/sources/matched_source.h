@@ -2,7 +2,7 @@
 #include <functional>
 #include <memory>
 
-#include "common/time/time_matcher.h"
+#include "common/capture/paired_sources.h"
 #include "services/stereo_driver/core/sources/frame.h"
 
 namespace deixis::stereo_driver {
@@ -21,17 +21,8 @@ class MatchedSource final : public FrameSource {
   FrameSourceStatus status() const override;
 
  private:
-  std::optional<Frame> NextMatch();
-  void FetchLeft();
-  void FetchRight();
-  bool HasEnded() const;
-
-  std::unique_ptr<capture::Source> left_;
-  std::unique_ptr<capture::Source> right_;
+  capture::PairedSources sources_;
   Compose compose_;
-  TimeMatcher<capture::Picture, capture::Picture> matcher_;
-  capture::SourceState left_state_ = capture::SourceState::kWaiting;
-  capture::SourceState right_state_ = capture::SourceState::kWaiting;
   std::int64_t unusable_ = 0;
 };
 
