@@ -1,0 +1,72 @@
+#include "common/anatomy/glossary.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "common/config/config.h"
+
+namespace deixis::anatomy {
+namespace {
+
+struct TermEntry {
+  std::string latin, english, german, printed, why;
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("latin", latin);
+    v("english", english);
+    v("german", german);
+    v("printed", printed);
+    v("why", why);
+  }
+  void Validate() const {
+    config::Faults faults;
+    faults.Require(!latin.empty(), "latin", "must not be empty");
+    faults.Require(!english.empty(), "english", "must not be empty");
+    faults.Require(!german.empty(), "german", "must not be empty");
+    faults.ThrowIfAny();
+  }
+};
+
+struct SectionEntry {
+  std::string english, german;
+  std::vector<TermEntry> terms;
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("english", english);
+    v("german", german);
+    v("terms", terms);
+  }
+};
+
+struct GlossaryFile {
+  std::vector<SectionEntry> sections;
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("sections", sections);
+  }
+};
+
+}  // namespace
+
+Glossary Glossary::Load(const std::filesystem::path& path) {
+  Glossary glossary;
+  for (const SectionEntry& section : config::Load<GlossaryFile>(path).sections) {
+    for (const TermEntry& term : section.terms) {
+      glossary.terms_.push_back(
+          {{term.english, term.german, term.latin}, section.english, term.printed, term.why});
+    }
+  }
+  return glossary;
+}
+
+std::vector<Term> Glossary::Find(const std::string& name) const {
+  std::vector<Term> found;
+  std::copy_if(terms_.begin(), terms_.end(), std::back_inserter(found),
+               [&name](const Term& term) { return term.names.Match(name); });
+  return found;
+}
+
+}  // namespace deixis::anatomy
