@@ -52,6 +52,21 @@ struct SummandEntry : Summand {
   }
 };
 
+struct ColumnEntry : SurveyColumn {
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("of", of);
+    v("times", times);
+  }
+  void Validate() const {
+    config::Faults faults;
+    faults.Require(!of.empty(), "of", "must name a column");
+    faults.Require(times != 0.0 && times >= -10.0 && times <= 10.0, "times",
+                   "must lie in -10..10 and not be 0");
+    faults.ThrowIfAny();
+  }
+};
+
 struct PrintedEntry : PrintedValue {
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -73,8 +88,10 @@ struct MeasureEntry {
   std::string name, english, german, latin, definition;
   MeasuringPosture posture = MeasuringPosture::kStanding;
   std::vector<SummandEntry> derived;
+  std::vector<ColumnEntry> ansur;
   PercentilesEntry female, male;
   bool is_derived_only = false;
+  bool is_surveyed_only = false;
   std::vector<PrintedEntry> printed;
 
   template <typename Visitor>
@@ -86,9 +103,11 @@ struct MeasureEntry {
     v("posture", posture);
     v("definition", definition);
     v("derived", derived);
+    v("ansur", ansur);
     v("female", female);
     v("male", male);
     v("is_derived_only", is_derived_only);
+    v("is_surveyed_only", is_surveyed_only);
     v("printed", printed);
   }
   void Validate() const {
@@ -96,15 +115,19 @@ struct MeasureEntry {
     faults.Require(!name.empty(), "name", "must not be empty");
     faults.Require(!english.empty(), "english", "must not be empty");
     faults.Require(!definition.empty(), "definition", "must not be empty");
-    faults.Require(is_derived_only ? !derived.empty() : female.p50 > 0.0 && male.p50 > 0.0,
-                   is_derived_only ? "derived" : "female", "and male must be stated");
+    faults.Require(!is_derived_only || !derived.empty(), "derived", "must be stated");
+    faults.Require(!is_surveyed_only || !ansur.empty(), "ansur", "must be stated");
+    const bool has_percentiles = female.p50 > 0.0 && male.p50 > 0.0;
+    faults.Require(has_percentiles != (is_derived_only || is_surveyed_only), "female",
+                   "and male must be stated, unless a measure is only derived or surveyed");
     faults.ThrowIfAny();
   }
   BodyMeasure ToMeasure() const {
-    BodyMeasure measure{name, {english, german, latin}, definition, posture, {}, {}, {}, {}};
+    BodyMeasure measure{name, {english, german, latin}, definition, posture, {}, {}, {}, {}, {}};
     measure.derived.assign(derived.begin(), derived.end());
+    measure.ansur.assign(ansur.begin(), ansur.end());
     measure.printed.assign(printed.begin(), printed.end());
-    if (!is_derived_only) {
+    if (!is_derived_only && !is_surveyed_only) {
       measure.female = female;
       measure.male = male;
     }
@@ -147,10 +170,15 @@ double Percentiles::Column(const std::string& name) const {
   throw std::logic_error("Percentiles: no column " + name);
 }
 
-BodyMeasures BodyMeasures::Load(const std::filesystem::path& path) {
+BodyMeasures BodyMeasures::Load(const std::vector<std::filesystem::path>& paths) {
   BodyMeasures measures;
-  for (const MeasureEntry& entry : config::Load<MeasuresFile>(path).measures) {
-    measures.all_.push_back(entry.ToMeasure());
+  for (const std::filesystem::path& path : paths) {
+    for (const MeasureEntry& entry : config::Load<MeasuresFile>(path).measures) {
+      if (measures.Find(entry.name) != nullptr) {
+        throw config::ConfigError(path.string() + ": '" + entry.name + "' is there already");
+      }
+      measures.all_.push_back(entry.ToMeasure());
+    }
   }
   return measures;
 }
@@ -166,6 +194,9 @@ double BodyMeasures::Median_mm(const std::string& name, Sex sex) const {
   const BodyMeasure* measure = Find(name);
   if (measure == nullptr) throw std::logic_error("BodyMeasures: no measure " + name);
   if (measure->Of(sex)) return measure->Of(sex)->p50;
+  if (measure->derived.empty()) {
+    throw std::logic_error("BodyMeasures: " + name + " has no percentiles");
+  }
   double sum_mm = 0.0;
   for (const Summand& summand : measure->derived)
     sum_mm += summand.sign * Median_mm(summand.of, sex);

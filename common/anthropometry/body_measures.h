@@ -49,14 +49,21 @@ struct Summand {
   int sign = 1;  ///< 1 or -1.
 };
 
+/// A column of a survey, as part of a measure, millimetres.
+struct SurveyColumn {
+  std::string of;
+  double times = 1.0;
+};
+
 /// One measure of the body.
 struct BodyMeasure {
   std::string name;  ///< Abbreviation: kph, oal ...
   anatomy::Names names;
   std::string definition;  ///< English.
   MeasuringPosture posture = MeasuringPosture::kStanding;
-  std::vector<Summand> derived;             ///< Empty = it is measured.
-  std::optional<Percentiles> female, male;  ///< Nothing: only derived.
+  std::vector<Summand> derived;     ///< Empty = it is measured.
+  std::vector<SurveyColumn> ansur;  ///< Columns of ANSUR II that sum up to it; empty = it has none.
+  std::optional<Percentiles> female, male;  ///< Nothing: only derived, or only surveyed.
   std::vector<PrintedValue> printed;
 
   const std::optional<Percentiles>& Of(Sex sex) const {
@@ -64,19 +71,21 @@ struct BodyMeasure {
   }
 };
 
-/// "Values of human kinematics", section 3: all measures.
+/// "Values of human kinematics", section 3: all measures; and what other surveys add.
 class BodyMeasures {
  public:
-  /// Reads config/kinematics/measures.yaml. Throws ConfigError naming file, line and key: names
-  /// that occur twice, percentiles that do not grow, derived from what is no measure.
-  static BodyMeasures Load(const std::filesystem::path& path);
+  /// Reads config/kinematics/measures.yaml and files like it. Throws ConfigError naming file, line
+  /// and key: names that occur twice, percentiles that do not grow, derived from what is no
+  /// measure.
+  static BodyMeasures Load(const std::vector<std::filesystem::path>& paths);
 
   const std::vector<BodyMeasure>& all() const { return all_; }
   /// By abbreviation or by its name in any language; nullptr when there is none.
   const BodyMeasure* Find(const std::string& name) const;
 
   /// Millimetres at the 50th percentile; of what is only derived the sum of its parts. Percentiles
-  /// do not add up, so others are not derived. Throws std::logic_error for an unknown name.
+  /// do not add up, so others are not derived. Throws std::logic_error for an unknown name, and for
+  /// one of a survey.
   double Median_mm(const std::string& name, Sex sex) const;
 
  private:

@@ -21,7 +21,7 @@ constexpr double kRounding_percent = 0.0051;
 const std::vector<Sex> kSexes{Sex::kFemale, Sex::kMale};
 
 const BodyMeasures& Shipped() {
-  static const BodyMeasures measures = BodyMeasures::Load(kFile);
+  static const BodyMeasures measures = BodyMeasures::Load({kFile});
   return measures;
 }
 
@@ -130,6 +130,15 @@ TEST(BodyMeasures, SpreadAsTheirPercentilesSay) {
   EXPECT_NEAR(Shipped().Find("kph")->male->Spread_mm(), 65.3, 0.1);
 }
 
+TEST(BodyMeasures, AreExtendedBySurveys) {
+  const BodyMeasures measures =
+      BodyMeasures::Load({kFile, DEIXIS_SOURCE_DIR "/config/kinematics/measures_ansur2.yaml"});
+  EXPECT_EQ(measures.all().size(), 34u + 25u);
+  EXPECT_EQ(measures.Find("Wadenumfang")->ansur.at(0).of, "calfcircumference");
+  EXPECT_THROW(measures.Median_mm("calf_girth", Sex::kMale), std::logic_error);
+  EXPECT_THROW(BodyMeasures::Load({kFile, kFile}), config::ConfigError);
+}
+
 TEST(BodyMeasures, AreFoundInThreeLanguages) {
   for (const std::string name : {"oal", "upper arm length", "Upper_Arm_Length", "Oberarmlänge",
                                  "oberarmlaenge", "longitudo brachii"}) {
@@ -146,7 +155,7 @@ TEST(BodyMeasures, NameFileAndKeyOfWhatIsWrong) {
       "female: {p1: 1, p5: 2, p50: 3, p95: 4, p99: 5}, male: {p1: 1, p5: 2, p50: 3, p95: 4, p99: "
       "5}}\n";
   const auto loading = [&folder](const std::string& text) {
-    return [&folder, text] { BodyMeasures::Load(folder.Write("measures.yaml", text)); };
+    return [&folder, text] { BodyMeasures::Load({folder.Write("measures.yaml", text)}); };
   };
   EXPECT_NO_THROW(loading(good)());
   const auto replaced = [&good](const std::string& from, const std::string& to) {
