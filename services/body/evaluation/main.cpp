@@ -1,0 +1,103 @@
+// Measures how well a person's sizes and sex follow from a few lengths, with people of a survey
+// that the figures were not learned from; and writes the figures anew from the other half.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include "common/config/config.h"
+#include "common/program/command_line.h"
+#include "services/body/evaluation/population_score.h"
+
+namespace deixis::body {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  fs::path data;
+  std::vector<std::string> given{"kph"};
+  double error_mm = 10.0;
+  fs::path population;
+};
+
+Arguments Parse(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Measures what follows of a body's sizes from a few lengths.",
+               "deixis-evaluate-body");
+  app.set_version_flag("--version", "deixis-evaluate-body " DEIXIS_VERSION);
+  app.add_option("--survey", arguments.data, "Folder with the tables of ANSUR II")->required();
+  app.add_option("--given", arguments.given, "Measures that are known of a person")->delimiter(',');
+  app.add_option("--error", arguments.error_mm, "Their standard deviation, millimetres")
+      ->check(CLI::Range(0.1, 200.0));
+  app.add_option("--write-population", arguments.population,
+                 "Write the figures of the survey's odd half to this file, and stop");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::exit(app.exit(error) == 0 ? program::kStopped : program::kWrongCommand);
+  }
+  return arguments;
+}
+
+anthropometry::BodyMeasures ShippedMeasures() {
+  return anthropometry::BodyMeasures::Load({config::FindConfig("kinematics/measures.yaml"),
+                                            config::FindConfig("kinematics/measures_ansur2.yaml")});
+}
+
+void Write(const anthropometry::Populations& populations, const fs::path& file) {
+  std::ofstream out(file);
+  out << "# Joint distributions of body measures: means and spreads, millimetres, and "
+         "correlations.\n"
+         "# Written by `deixis-evaluate-body --write-population`. Correlations are those of the\n"
+         "# people of ANSUR II with odd numbers. Means and spreads are those of measures.yaml "
+         "where\n"
+         "# it has them; those of measures_ansur2.yaml are the survey's, means moved to the mean\n"
+         "# stature of measures.yaml by regression.\n"
+      << populations.ToYaml();
+  if (!out.flush()) throw config::ConfigError(file.string() + ": cannot be written");
+}
+
+void Print(const PopulationScore& score) {
+  std::printf("measure,median_mm,p95_mm,stated_spread_mm,bias_mm,within_90\n");
+  for (const PredictionScore& row : score.predictions) {
+    std::printf("%s,%.1f,%.1f,%.1f,%.1f,%.3f\n", row.measure.c_str(), row.median_mm, row.p95_mm,
+                row.stated_spread_mm, row.bias_mm, row.share_within_90);
+  }
+  std::printf("people %d\n", score.people);
+  std::printf("sex accuracy %.3f, sure %.3f of which right %.3f, calibration error %.3f\n",
+              score.sex.accuracy, score.sex.sure_share, score.sex.sure_accuracy,
+              score.sex.calibration_error);
+}
+
+void Run(const Arguments& arguments) {
+  const auto measures = ShippedMeasures();
+  const Surveys surveys{Survey::Read(arguments.data / "ANSUR_II_FEMALE_Public.csv"),
+                        Survey::Read(arguments.data / "ANSUR_II_MALE_Public.csv")};
+  if (!arguments.population.empty()) {
+    Write(FitPopulations(measures, surveys, Half::kOdd), arguments.population);
+    return;
+  }
+  const auto populations =
+      anthropometry::Populations::Load(config::FindConfig("kinematics/population.yaml"));
+  for (const std::string& name : arguments.given) {
+    if (!populations.Find(name)) {
+      throw config::ConfigError("--given " + name + " is no measure of kinematics/population.yaml");
+    }
+  }
+  Print(Score(populations, measures, surveys, Half::kEven, arguments.given,
+              0.001 * arguments.error_mm));
+}
+
+}  // namespace
+}  // namespace deixis::body
+
+int main(int argc, char** argv) {
+  try {
+    deixis::body::Run(deixis::body::Parse(argc, argv));
+  } catch (const std::exception& error) {
+    std::cerr << "deixis-evaluate-body: " << error.what() << "\n";
+    return deixis::program::kCannotWork;
+  }
+  return deixis::program::kStopped;
+}

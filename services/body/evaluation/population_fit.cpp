@@ -1,0 +1,81 @@
+#include "services/body/evaluation/population_fit.h"
+
+#include <cmath>
+#include <utility>
+
+#include "common/config/config.h"
+
+namespace deixis::body {
+namespace {
+
+using anthropometry::BodyMeasure;
+using anthropometry::Population;
+using anthropometry::Sex;
+
+constexpr double kMetresPerMillimetre = 0.001;
+const char* const kStature = "kph";
+
+/// People by measures, metres.
+Eigen::MatrixXd Table(const std::vector<const BodyMeasure*>& measures, const Survey& survey,
+                      Half half) {
+  std::vector<std::size_t> people;
+  for (std::size_t i = 0; i < survey.people(); ++i) {
+    if (IsIn(half, survey.subject(i))) people.push_back(i);
+  }
+  if (people.size() < 2) throw config::ConfigError("the survey has fewer than two such people");
+  Eigen::MatrixXd table(static_cast<Eigen::Index>(people.size()),
+                        static_cast<Eigen::Index>(measures.size()));
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    for (std::size_t k = 0; k < measures.size(); ++k) {
+      table(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          survey.Measure_m(*measures[k], people[i]);
+    }
+  }
+  return table;
+}
+
+Population Fit(const std::vector<const BodyMeasure*>& measures, const Survey& survey, Sex sex,
+               Half half) {
+  const Eigen::MatrixXd table = Table(measures, survey, half);
+  const Eigen::VectorXd surveyed_m = table.colwise().mean().transpose();
+  const Eigen::MatrixXd centred = table.rowwise() - surveyed_m.transpose();
+  Population fit{surveyed_m, centred.transpose() * centred / static_cast<double>(table.rows() - 1)};
+  Eigen::Index stature = 0;
+  for (std::size_t k = 0; k < measures.size(); ++k) {
+    if (measures[k]->name == kStature) stature = static_cast<Eigen::Index>(k);
+  }
+  const double taller_m =
+      kMetresPerMillimetre * measures[static_cast<std::size_t>(stature)]->Of(sex)->p50 -
+      surveyed_m[stature];
+  fit.mean_m += fit.covariance_m2.col(stature) / fit.covariance_m2(stature, stature) * taller_m;
+  for (std::size_t k = 0; k < measures.size(); ++k) {
+    const auto& percentiles = measures[k]->Of(sex);
+    if (!percentiles) continue;
+    const auto place = static_cast<Eigen::Index>(k);
+    const double scale = kMetresPerMillimetre * percentiles->Spread_mm() /
+                         std::sqrt(fit.covariance_m2(place, place));
+    fit.covariance_m2.row(place) *= scale;
+    fit.covariance_m2.col(place) *= scale;
+    fit.mean_m[place] = kMetresPerMillimetre * percentiles->p50;
+  }
+  return fit;
+}
+
+}  // namespace
+
+bool IsIn(Half half, int subject) { return (subject % 2 != 0) == (half == Half::kOdd); }
+
+anthropometry::Populations FitPopulations(const anthropometry::BodyMeasures& measures,
+                                          const Surveys& surveys, Half half) {
+  std::vector<const BodyMeasure*> surveyed;
+  std::vector<std::string> names;
+  for (const BodyMeasure& measure : measures.all()) {
+    if (measure.ansur.empty() || (!measure.derived.empty() && !measure.female)) continue;
+    surveyed.push_back(&measure);
+    names.push_back(measure.name);
+  }
+  return {names, Fit(surveyed, surveys.female, Sex::kFemale, half),
+          Fit(surveyed, surveys.male, Sex::kMale, half)};
+}
+
+}  // namespace deixis::body
