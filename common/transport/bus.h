@@ -33,7 +33,7 @@ inline constexpr const char* kAllChannels = "*";
 struct BusOptions {
   std::string url;                             ///< Empty: $LCM_DEFAULT_URL, else LCM's own default.
   std::string channel_prefix;                  ///< Set in front of every channel name.
-  int receive_buffer_bytes = 4 * 1024 * 1024;  ///< Asked of the kernel unless the URL does so.
+  int receive_buffer_bytes = 4 * 1024 * 1024;  ///< Wanted of the kernel unless the URL says so.
   int queue_capacity = 500;                    ///< Messages that may wait per channel (kEvery).
   int latest_queue_capacity = 30;              ///< The same for kLatest, whose messages are large.
   bool deliver_every_message = false;          ///< Offline: kLatest behaves as kEvery.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "common/transport/bus.h"
+#include "common/transport/receive_buffer.h"
 
 namespace deixis::transport {
 namespace {
@@ -91,7 +92,7 @@ Url ResolveUrl(const std::string& text, int receive_buffer_bytes) {
   Url url = TakeApart(resolved);
   if (url.provider == "udpm" && url.option("recv_buf_size").empty()) {
     url.text += (resolved.find('?') == std::string::npos ? "?" : "&");
-    url.text += "recv_buf_size=" + std::to_string(receive_buffer_bytes);
+    url.text += "recv_buf_size=" + std::to_string(ExpectedReceiveBuffer(receive_buffer_bytes));
   }
   return url;
 }

@@ -12,9 +12,10 @@ struct Url {
 };
 
 /// The URL that is meant: `text`, else $LCM_DEFAULT_URL, else LCM's default (this host only). A
-/// udpm URL without a receive buffer size gets `receive_buffer_bytes`, since with stock kernel
-/// buffers pictures are lost in silence. Throws BusError when it has
-/// no provider, gives a key twice or without a value, or a port, ttl or buffer size out of range.
+/// udpm URL without a receive buffer size gets `receive_buffer_bytes`, since with LCM's own small
+/// one pictures are lost in silence; no more than the kernel grants, since liblcm would print a
+/// page about the rest at every start. Throws BusError when it has no provider, gives a key twice
+/// or without a value, or a port, ttl or buffer size out of range.
 Url ResolveUrl(const std::string& text, int receive_buffer_bytes);
 
 }  // namespace deixis::transport

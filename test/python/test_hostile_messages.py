@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench import becomes_true
 from test_types import STRUCTS, Filler
 
 from deixis_frontend.cli import main
@@ -119,6 +120,7 @@ def test_errors_with_what_came_from_elsewhere_are_shown_as_escapes(
 def test_names_of_processes_are_printable() -> None:
     with subprocess.Popen(["a\x1b[2Jb", "9"], executable="/bin/sleep") as process:
         try:
+            becomes_true(lambda: not command_name(process.pid).startswith("a process"), 5.0)
             assert command_name(process.pid) == f"a\\x1b[2Jb pid {process.pid}"
         finally:
             process.kill()

@@ -20,11 +20,17 @@ def test_option_goes_before_environment_before_default(monkeypatch: pytest.Monke
     assert str(lcm_url.choose(None)) == lcm_url.DEFAULT
 
 
-def test_receive_buffer_is_appended_where_there_is_none() -> None:
+def test_receive_buffer_is_appended_where_there_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lcm_url, "granted_buffer", lambda asked: asked)
     url = lcm_url.parse("udpm://239.255.76.67:7667?ttl=0")
     assert str(url.with_receive_buffer()) == f"{url}&recv_buf_size=4194304"
     bare = lcm_url.parse("udpm://")
     assert str(bare.with_receive_buffer()) == "udpm://?recv_buf_size=4194304"
+
+
+def test_no_more_is_asked_for_than_the_kernel_grants(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lcm_url, "granted_buffer", lambda asked: min(asked, 212992))
+    assert str(lcm_url.parse("udpm://").with_receive_buffer()) == "udpm://?recv_buf_size=212992"
 
 
 def test_receive_buffer_that_is_asked_for_stays() -> None:

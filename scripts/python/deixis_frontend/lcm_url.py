@@ -59,10 +59,13 @@ class LcmUrl:
             parameter for parameter in self.parameters if parameter[0] != key))
 
     def with_receive_buffer(self) -> LcmUrl:
-        """The same URL asking for a receive buffer that pictures fit into (udpm only)."""
+        """The same URL asking for a receive buffer that pictures fit into (udpm only).
+
+        For no more than the kernel grants: liblcm would print a page about the rest at every start.
+        """
         if self.provider != "udpm":
             return self
-        return self.with_default("recv_buf_size", RECEIVE_BUFFER_BYTES)
+        return self.with_default("recv_buf_size", granted_buffer(RECEIVE_BUFFER_BYTES))
 
 
 def parse(text: str) -> LcmUrl:
@@ -84,6 +87,13 @@ def parse(text: str) -> LcmUrl:
 def choose(option: str | None) -> LcmUrl:
     """The URL of `-l`, else of LCM_DEFAULT_URL, else LCM's own default."""
     return parse(option or os.environ.get("LCM_DEFAULT_URL") or DEFAULT)
+
+
+def granted_buffer(asked: int) -> int:
+    """Bytes that a socket gets; the kernel tells twice that, for its own bookkeeping."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, asked)
+        return probe.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) // 2
 
 
 def with_free_port() -> LcmUrl:

@@ -6,6 +6,7 @@
 
 #include "common/transport/bus.h"
 #include "common/transport/channel_name.h"
+#include "common/transport/receive_buffer.h"
 #include "common/transport/sample_window.h"
 
 namespace deixis::transport {
@@ -25,6 +26,12 @@ TEST(Url, GetsAReceiveBufferWhereNoneIsStated) {
             "udpm://239.255.1.1:7000?ttl=0&recv_buf_size=1000");
   EXPECT_EQ(ResolveUrl("udpm://239.255.1.1:7000", 1000).text,
             "udpm://239.255.1.1:7000?recv_buf_size=1000");
+}
+
+TEST(Url, AsksForNoLargerReceiveBufferThanTheKernelGrants) {
+  const int granted = ExpectedReceiveBuffer(1 << 30);
+  EXPECT_EQ(ResolveUrl("udpm://239.255.1.1:7000", 1 << 30).option("recv_buf_size"),
+            std::to_string(granted));
 }
 
 TEST(Url, KeepsAStatedReceiveBuffer) {

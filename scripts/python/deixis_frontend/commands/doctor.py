@@ -129,6 +129,6 @@ def _of_traffic(arguments: argparse.Namespace, commands: CommandLines,
     """What is heard on the bus, for some seconds."""
     traffic = Traffic(layout)
     names = PublisherNames(listen(Live(commands.url, any_of([]), arguments.seconds), traffic))
-    granted = network.granted_buffer(lcm_url.RECEIVE_BUFFER_BYTES)
+    granted = lcm_url.granted_buffer(lcm_url.RECEIVE_BUFFER_BYTES)
     return [*services.publishers(traffic, names, commands), *services.types(traffic, commands),
             *services.loss(traffic, granted, commands), *services.versions(traffic, commands)]

@@ -13,7 +13,7 @@ from deixis_frontend import lcm_url
 from deixis_frontend.doctor import firewall
 from deixis_frontend.doctor.command_lines import CommandLines
 from deixis_frontend.doctor.findings import OK, PROBLEM, WARNING, Finding
-from deixis_frontend.lcm_url import RECEIVE_BUFFER_BYTES, LcmUrl
+from deixis_frontend.lcm_url import RECEIVE_BUFFER_BYTES, LcmUrl, granted_buffer
 
 _ROUTE = (("ip", "link", "set", "lo", "up"), ("ip", "route", "add", "224.0.0.0/4", "dev", "lo"))
 _SIOCGIFFLAGS = 0x8913  # netdevice(7)
@@ -47,13 +47,6 @@ def receive_buffer(url: LcmUrl) -> list[Finding]:
         return [Finding(WARNING, "receive_buffer", f"the kernel grants {granted} of {asked} bytes:"
                         " large pictures are lost", f"sudo {' '.join(_BUFFER[0])}", _BUFFER)]
     return [Finding(OK, "receive_buffer", f"the kernel grants {granted} bytes")]
-
-
-def granted_buffer(asked: int) -> int:
-    """Bytes that a socket gets; the kernel tells twice that, for its own bookkeeping."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, asked)
-        return probe.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) // 2
 
 
 def reach(url: LcmUrl) -> list[Finding]:
