@@ -1,11 +1,32 @@
 #include "test/common/body_model/body_samples.h"
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
+
+#include "common/body_model/kinematics.h"
 
 namespace deixis::body_model {
 
 using Eigen::Vector3d;
+
+namespace {
+
+BodyPose Moved(BodyPose pose, int column, double step) {
+  if (column < 3) {
+    pose.frame_from_root.translation_m[column] += step;
+  } else if (column < 6) {
+    const Vector3d turn = step * Vector3d::Unit(column - 3);
+    pose.frame_from_root.rotation =
+        Eigen::Quaterniond(RotationFrom(turn)) * pose.frame_from_root.rotation;
+  } else {
+    pose.angles_rad[column - 6] += step;
+  }
+  return pose;
+}
+
+}  // namespace
 
 Limb PlainLimb(const std::string& name, int parent) {
   Limb limb;
@@ -60,6 +81,26 @@ BodyPose RandomPose(const BodyModel& model, std::mt19937& random) {
     }
   }
   return pose;
+}
+
+void ExpectDerivatives(const BodyModel& model, const BodyPose& pose) {
+  const Vector3d in_limb(0.03, -0.02, 0.25);
+  Kinematics kinematics(model);
+  for (int limb = 0; limb < model.limb_count(); ++limb) {
+    kinematics.Update(pose);
+    Eigen::Matrix3Xd jacobian(3, 6 + model.angle_count());
+    jacobian.setConstant(std::nan(""));
+    PointJacobian(kinematics, limb, kinematics.limb(limb) * in_limb, jacobian);
+    for (int column = 0; column < jacobian.cols(); ++column) {
+      const double h = 1e-6;
+      kinematics.Update(Moved(pose, column, h));
+      const Vector3d after = kinematics.limb(limb) * in_limb;
+      kinematics.Update(Moved(pose, column, -h));
+      const Vector3d before = kinematics.limb(limb) * in_limb;
+      EXPECT_LE((jacobian.col(column) - (after - before) / (2.0 * h)).norm(), 1e-8)
+          << "limb " << limb << " column " << column;
+    }
+  }
 }
 
 }  // namespace deixis::body_model

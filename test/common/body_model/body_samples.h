@@ -19,4 +19,7 @@ std::vector<Limb> ArmAndHead();
 /// Any root, any angles within the envelope.
 BodyPose RandomPose(const BodyModel& model, std::mt19937& random);
 
+/// Expects PointJacobian to agree with finite differences, for a point of every limb.
+void ExpectDerivatives(const BodyModel& model, const BodyPose& pose);
+
 }  // namespace deixis::body_model

@@ -1,0 +1,141 @@
+// The models of config/body_models, with the sizes of people of config/kinematics.
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+
+#include "common/anthropometry/person_estimate.h"
+#include "common/body_model/body_plan.h"
+#include "common/body_model/joint_angles.h"
+#include "common/body_model/kinematics.h"
+#include "test/common/body_model/body_samples.h"
+
+namespace deixis::body_model {
+namespace {
+
+using anthropometry::Populations;
+using anthropometry::Sex;
+using Eigen::Vector3d;
+
+const std::string kConfig = DEIXIS_SOURCE_DIR "/config/";
+
+BodyModel Shipped(const std::string& name, Sex sex, double stature_m) {
+  static const Populations populations = Populations::Load(kConfig + "kinematics/population.yaml");
+  return Build(LoadBodyPlan(kConfig + "body_models/" + name + ".yaml"),
+               SizesOf(populations, sex, stature_m));
+}
+
+/// Upright, arms hanging, feet on the floor.
+BodyPose Standing(const BodyModel& model) {
+  BodyPose pose = RestPose(model);
+  for (const char* side : {"right_", "left_"}) {
+    if (const auto arm = model.Find(side + std::string("upper_arm"))) {
+      PointLimb(model, *arm, -Vector3d::UnitZ(), pose);
+    }
+    if (const auto leg = model.Find(side + std::string("thigh"))) {
+      PointLimb(model, *leg, -Vector3d::UnitZ(), pose);
+    }
+  }
+  return pose;
+}
+
+struct Person {
+  Sex sex;
+  double stature_m;
+};
+
+class ShippedModels : public testing::TestWithParam<Person> {};
+
+TEST_P(ShippedModels, HaveTheLimbsAndAnglesOfTheirSources) {
+  const auto [sex, stature_m] = GetParam();
+  EXPECT_EQ(Shipped("upper_body", sex, stature_m).limb_count(), 6);
+  EXPECT_EQ(Shipped("whole_body", sex, stature_m).limb_count(), 10);
+  EXPECT_EQ(Shipped("whole_body_detailed", sex, stature_m).limb_count(), 19);
+  const BodyModel arm = Shipped("right_arm", sex, stature_m);
+  EXPECT_EQ(6 + arm.angle_count(), 10);
+  EXPECT_TRUE(arm.limbs()[static_cast<std::size_t>(*arm.Find("right_hand"))].dofs.empty());
+  EXPECT_TRUE(arm.limbs()[static_cast<std::size_t>(*arm.Find("head"))].dofs.empty());
+}
+
+TEST_P(ShippedModels, AreAsTallAsThePerson) {
+  const auto [sex, stature_m] = GetParam();
+  const BodyModel model = Shipped("whole_body_detailed", sex, stature_m);
+  Kinematics kinematics(model);
+  kinematics.Update(Standing(model));
+  const int foot = *model.Find("right_foot"), head = *model.Find("head");
+  const auto& sole = model.limbs()[static_cast<std::size_t>(foot)].shape;
+  const Vector3d under_foot =
+      kinematics.limb(foot) * Vector3d(sole.centre0_m.x() - sole.a0_m, 0.0, 0.0);
+  EXPECT_NEAR(kinematics.distal_m(head).z() - under_foot.z(), stature_m, 0.03);
+}
+
+TEST_P(ShippedModels, SpreadTheirArmsAsFarAsPeopleDo) {
+  const auto [sex, stature_m] = GetParam();
+  const BodyModel model = Shipped("whole_body_detailed", sex, stature_m);
+  BodyPose pose = RestPose(model);
+  PointLimb(model, *model.Find("right_upper_arm"), -Vector3d::UnitY(), pose);
+  PointLimb(model, *model.Find("left_upper_arm"), Vector3d::UnitY(), pose);
+  Kinematics kinematics(model);
+  kinematics.Update(pose);
+  const double span_m = (kinematics.distal_m(*model.Find("right_hand")) -
+                         kinematics.distal_m(*model.Find("left_hand")))
+                            .norm();
+  EXPECT_NEAR(span_m, 1.0 * stature_m, 0.06);
+}
+
+TEST_P(ShippedModels, AreMirrorImages) {
+  const auto [sex, stature_m] = GetParam();
+  const BodyModel model = Shipped("whole_body_detailed", sex, stature_m);
+  Kinematics kinematics(model);
+  kinematics.Update(Standing(model));
+  for (const char* limb :
+       {"clavicle", "upper_arm", "lower_arm", "hand", "thigh", "shank", "foot"}) {
+    const Vector3d right = kinematics.distal_m(*model.Find(std::string("right_") + limb));
+    const Vector3d left = kinematics.distal_m(*model.Find(std::string("left_") + limb));
+    EXPECT_LE((right - Vector3d(left.x(), -left.y(), left.z())).norm(), 1e-9) << limb;
+  }
+}
+
+TEST_P(ShippedModels, BendAsPeopleDoWhenTheirAnglesGrow) {
+  const auto [sex, stature_m] = GetParam();
+  const BodyModel model = Shipped("whole_body_detailed", sex, stature_m);
+  const auto moved = [&](const std::string& limb, int dof, const std::string& end) {
+    BodyPose pose = Standing(model);
+    Kinematics kinematics(model);
+    kinematics.Update(pose);
+    const Vector3d before = kinematics.distal_m(*model.Find(end));
+    pose.angles_rad[model.first_angle(*model.Find(limb)) + dof] += 0.5;
+    kinematics.Update(pose);
+    return Vector3d(kinematics.distal_m(*model.Find(end)) - before);
+  };
+  EXPECT_GT(moved("chest", 1, "head").x(), 0.1);                  // Flexion bends forward.
+  EXPECT_LT(moved("chest", 0, "head").y(), -0.1);                 // Lateral: to the right.
+  EXPECT_GT(moved("right_lower_arm", 0, "right_hand").x(), 0.1);  // The elbow, forward.
+  EXPECT_GT(moved("left_lower_arm", 0, "left_hand").x(), 0.1);
+  EXPECT_GT(moved("right_hand", 0, "right_hand").y(), 0.05);  // Palmar: to the thigh.
+  EXPECT_LT(moved("left_hand", 0, "left_hand").y(), -0.05);
+  EXPECT_GT(moved("right_hand", 1, "right_hand").x(), 0.05);    // Radial: to the thumb.
+  EXPECT_GT(moved("right_thigh", 0, "right_shank").x(), 0.2);   // The hip, forward.
+  EXPECT_LT(moved("right_thigh", 1, "right_shank").y(), -0.2);  // Abduction: outward.
+  EXPECT_GT(moved("left_thigh", 1, "left_shank").y(), 0.2);
+  EXPECT_LT(moved("right_shank", 0, "right_foot").x(), -0.05);         // The knee, backward.
+  EXPECT_GT(moved("left_foot", 0, "left_foot").z(), 0.05);             // Toes up.
+  EXPECT_GT(moved("right_clavicle", 0, "right_upper_arm").z(), 0.05);  // The shoulder, up.
+  EXPECT_GT(moved("right_clavicle", 1, "right_upper_arm").x(), 0.05);  // And forward.
+}
+
+TEST_P(ShippedModels, HaveJacobiansThatAreDerivatives) {
+  const auto [sex, stature_m] = GetParam();
+  std::mt19937 random(8);
+  for (const char* name : {"upper_body", "whole_body", "whole_body_detailed", "right_arm"}) {
+    const BodyModel model = Shipped(name, sex, stature_m);
+    for (int i = 0; i < 3; ++i) ExpectDerivatives(model, RandomPose(model, random));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(People, ShippedModels,
+                         testing::Values(Person{Sex::kFemale, 1.50}, Person{Sex::kFemale, 1.68},
+                                         Person{Sex::kMale, 1.80}, Person{Sex::kMale, 2.00}));
+
+}  // namespace
+}  // namespace deixis::body_model
