@@ -80,7 +80,7 @@ TEST_P(ShippedModels, SpreadTheirArmsAsFarAsPeopleDo) {
   const double span_m = (kinematics.distal_m(*model.Find("right_hand")) -
                          kinematics.distal_m(*model.Find("left_hand")))
                             .norm();
-  EXPECT_NEAR(span_m, 1.0 * stature_m, 0.06);
+  EXPECT_NEAR(span_m, 1.0 * stature_m, 0.05);
 }
 
 TEST_P(ShippedModels, AreMirrorImages) {
