@@ -24,13 +24,7 @@ CalibrationAnswer Guess(cv::Size size, const CalibrationConfig& config) {
 
 LensFile ReadNamed(const CalibrationConfig& config) {
   const std::string cure = "set " + config.key + ".file, or leave it empty to guess";
-  std::string path;
-  try {
-    path = config::FindConfig(config.file).string();
-  } catch (const config::ConfigError& error) {
-    throw config::ConfigError(error.what() + ("; " + cure));
-  }
-  return ReadLensFile(path, cure);
+  return ReadLensFile(config::FindConfig(config.file, cure).string(), cure);
 }
 
 // One that comes over the bus must not stop its receiver.

@@ -67,8 +67,9 @@ cv::FileStorage OpenStorage(const std::string& path, const std::string& text) {
   } catch (const std::exception&) {
     // The one message below serves all; on some damage OpenCV throws what the library has thrown.
   }
-  FailIn(path,
-         "is not a YAML file of OpenCV (first line %YAML:1.0); write it with its calibration");
+  FailIn(
+      path,
+      "is cut, or not a YAML file of OpenCV (first line %YAML:1.0); write it with its calibration");
 }
 
 std::string Either(const std::string& key, const std::string& other_key) {

@@ -15,7 +15,8 @@ inline constexpr std::size_t kLargestPictureFile = std::size_t{256} * 1024 * 102
 std::vector<std::uint8_t> ReadBytes(const std::filesystem::path& file);
 
 /// What a picture file shows; `flags` are cv::ImreadModes. Empty when it cannot be decoded,
-/// whatever the reason: OpenCV throws at some, such as a header with an absurd size.
+/// whatever the reason (OpenCV throws at some, such as a header with an absurd size), or is a JPEG
+/// file that was cut.
 cv::Mat DecodePicture(const std::vector<std::uint8_t>& bytes, int flags);
 
 }  // namespace deixis::capture

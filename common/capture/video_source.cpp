@@ -41,7 +41,8 @@ double PeriodOf(const cv::VideoCapture& video, double rate_hz) {
 }  // namespace
 
 VideoSource::VideoSource(const SourceConfig& config)
-    : video_(Open(config)),
+    : path_(config.path),
+      video_(Open(config)),
       keeps_file_times_(config.rate_hz <= 0.0),
       period_s_(PeriodOf(video_, config.rate_hz)),
       stated_pictures_(video_.get(cv::CAP_PROP_FRAME_COUNT)) {}
@@ -58,6 +59,7 @@ Grab VideoSource::Next() {
 SourceStatus VideoSource::status() const {
   SourceStatus status;
   status.corrupt = corrupt_;
+  status.last_corrupt = last_corrupt_;
   return status;
 }
 
@@ -65,12 +67,23 @@ bool VideoSource::ReadPastDamage(cv::Mat& bgr) {
   for (int damaged = 0; damaged < kMaxDamagedInARow; ++damaged) {
     if (video_.read(bgr) && !bgr.empty()) return true;
     // Short of the stated number of pictures this is damage, not the end.
-    if (static_cast<double>(pictures_ + corrupt_) >= stated_pictures_) return false;
+    if (static_cast<double>(pictures_ + corrupt_) >= stated_pictures_) {
+      if (damaged > 0) CountAsCut(damaged);
+      return false;
+    }
     ++corrupt_;
     ++damaged_since_last_;
+    last_corrupt_ = path_;
   }
-  corrupt_ -= kMaxDamagedInARow - 1;  // The file is cut short: that is one fault, not thirty.
+  CountAsCut(kMaxDamagedInARow);
   return false;
+}
+
+// That is one fault, not as many as there were tries.
+void VideoSource::CountAsCut(int tries) {
+  corrupt_ -= tries - 1;
+  last_corrupt_ = path_ + ", which ends after " + std::to_string(pictures_) + " of " +
+                  std::to_string(std::llround(stated_pictures_)) + " pictures";
 }
 
 Timestamp VideoSource::TimeOfThisPicture() {

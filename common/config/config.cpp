@@ -212,4 +212,12 @@ fs::path FindConfig(const std::string& name) {
   throw ConfigError("configuration file '" + name + "' not found; searched: " + searched);
 }
 
+fs::path FindConfig(const std::string& name, const std::string& cure) {
+  try {
+    return FindConfig(name);
+  } catch (const ConfigError& error) {
+    throw ConfigError(error.what() + ("; " + cure));
+  }
+}
+
 }  // namespace deixis::config

@@ -167,5 +167,7 @@ T Load(const std::filesystem::path& path, const std::vector<std::string>& overri
 /// the source tree. Throws ConfigError listing the places that were searched, or naming what lies
 /// there and is no file.
 std::filesystem::path FindConfig(const std::string& name);
+/// The same; what is not found is told with the cure, "set calibration.file".
+std::filesystem::path FindConfig(const std::string& name, const std::string& cure);
 
 }  // namespace deixis::config

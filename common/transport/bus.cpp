@@ -16,6 +16,7 @@
 #include "common/transport/channel_name.h"
 #include "common/transport/log_writer.h"
 #include "common/transport/message_times.h"
+#include "common/transport/pace.h"
 #include "common/transport/publisher_sequences.h"
 #include "common/transport/receive_buffer.h"
 #include "common/transport/sample_window.h"
@@ -95,7 +96,8 @@ struct Bus::Implementation {
     PublisherSequences sequences;
     MessageTimes times;
     std::int64_t skipped_since_delivery = 0;
-    std::int64_t without_memory = 0;   // not handed on; counted without taking memory
+    std::int64_t without_memory = 0;  // not handed on; counted without taking memory
+    Pace pace;
     std::vector<std::uint8_t> newest;  // kLatest: bytes waiting for their turn
     bool is_waiting = false;
     Clock::time_point next_warning{};
@@ -192,7 +194,10 @@ struct Bus::Implementation {
   }
 
   void KeepNewest(Subscription& subscription, const RawMessage& raw) {
-    if (subscription.is_waiting) {
+    subscription.pace.NoteArrival(raw.received_us);
+    if (subscription.is_waiting && subscription.pace.CatchesUp()) {
+      DeliverNewest(subscription);
+    } else if (subscription.is_waiting) {
       ++subscription.statistics.skipped;
       ++subscription.skipped_since_delivery;
     }
@@ -217,7 +222,9 @@ struct Bus::Implementation {
       const Fault fault = CurrentFault();
       Drop(subscription, is_accepted ? "handler_failed" : fault.reason, fault.detail);
     }
-    if (is_accepted && !subscription.receive_raw) processing.Add(MillisecondsSince(start));
+    const double work_ms = MillisecondsSince(start);
+    subscription.pace.NoteWork(work_ms);
+    if (is_accepted && !subscription.receive_raw) processing.Add(work_ms);
   }
 
   static void Hand(Subscription& subscription, const RawMessage& raw, const Accept& accept) {
@@ -262,12 +269,17 @@ struct Bus::Implementation {
                                       {"detail", what}});
   }
 
+  void DeliverNewest(Subscription& subscription) {
+    Deliver(subscription,
+            {subscription.channel, {subscription.newest.data(), subscription.newest.size()}, 0});
+  }
+
   void DeliverWaiting() {
     for (std::size_t i = 0; i < waiting.size(); ++i) {
       Subscription& subscription = *waiting[i];
       subscription.is_waiting = false;
-      Deliver(subscription,
-              {subscription.channel, {subscription.newest.data(), subscription.newest.size()}, 0});
+      DeliverNewest(subscription);
+      subscription.pace.NoteCaughtUp();
     }
     waiting.clear();
   }

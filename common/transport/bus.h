@@ -24,7 +24,8 @@ class BusError : public std::runtime_error {
 /// What a subscriber wants of a channel whose messages come faster than it works.
 enum class Delivery {
   kEvery,  ///< All of them, in order: tracks, poses, events.
-  kLatest  ///< Only the newest: pictures. What is passed over is counted as skipped.
+  kLatest  ///< Only the newest: pictures. What is passed over is counted as skipped. A handler that
+           ///< was held up for a moment, and is quick, handles the few that wait.
 };
 
 /// Stands in statistics for what cannot be told by channel; no channel has such a name.

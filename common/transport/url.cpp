@@ -46,7 +46,18 @@ void RequirePort(const Url& url) {
   RequireInRange(url, "the port", url.network.substr(colon + 1), 1, 65535);
 }
 
+void RequireGroup(const Url& url) {
+  const std::string group = url.network.substr(0, url.network.find(':'));
+  int first = 0;
+  const auto [stop, error] = std::from_chars(group.data(), group.data() + group.size(), first);
+  const bool is_multicast = error == std::errc() && *stop == '.' && first >= 224 && first <= 239;
+  if (url.network.empty() || is_multicast) return;
+  throw BusError("LCM URL '" + url.text + "': '" + group +
+                 "' is no multicast group (224.0.0.0 to 239.255.255.255)");
+}
+
 void RequireUdpmOptions(const Url& url) {
+  RequireGroup(url);
   const std::string ttl = url.option("ttl");
   if (!ttl.empty()) RequireInRange(url, "ttl", ttl, 0, 255);
   const std::string buffer = url.option("recv_buf_size");

@@ -72,7 +72,8 @@ void Report(const Summary& summary, const std::string& input) {
     }
     throw ConfigError("nothing in log '" + input + "' is on " + Listed(summary.unheard_channels) +
                       "; it has: " + channels +
-                      "; set --channel-prefix or the services' channels to fit");
+                      "; name the services by --services, or set their channels to fit, as --set"
+                      " object_detector.image_channel=STEREO; or --channel-prefix");
   }
   if (2 * BytesIn(summary.damaged) > summary.input_bytes) {
     throw ConfigError("most of log '" + input + "' cannot be read; record it again");

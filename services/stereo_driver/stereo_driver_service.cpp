@@ -115,6 +115,7 @@ program::StepResult StereoDriverService::Step() {
   const capture::SourceState state = Advance();
   log_.Note(driver_.calibration_remark(), driver_.status().pictures.trouble);
   LogRegistration();
+  LogRefusal();
   if (state == capture::SourceState::kFinished) LogSummary();
   return program::ResultOf(state);
 }
@@ -148,7 +149,8 @@ void StereoDriverService::LogSummary() const {
   if (published_ == 0) {
     throw config::ConfigError("no frame of " + Origin(config_.driver.source) + " can be used (" +
                               std::to_string(Lost(status)) +
-                              " pictures tried); do they belong together in time and size?");
+                              " pictures tried); do they belong together in time and size?" +
+                              (status.last_unusable.empty() ? "" : " " + status.last_unusable));
   }
   if (Lost(status) == 0) {
     logging::Info("recording_finished", {{"published", published_}});
@@ -161,6 +163,14 @@ void StereoDriverService::LogSummary() const {
                                        {"unmatched_" + names.left, status.unmatched_left},
                                        {"unmatched_" + names.right, status.unmatched_right},
                                        {"unusable", status.unusable}});
+}
+
+void StereoDriverService::LogRefusal() {
+  const FrameSourceStatus status = driver_.status();
+  if (status.is_refusing && status.last_unusable != logged_refusal_) {
+    logging::Warn("unusable", {{"reason", status.last_unusable}});
+  }
+  logged_refusal_ = status.is_refusing ? status.last_unusable : "";
 }
 
 void StereoDriverService::LogRegistration() {
@@ -176,7 +186,8 @@ transport::Health StereoDriverService::health() const {
   transport::Health health;
   const std::string pace_trouble = driver_.pace_trouble();
   health.is_degraded = !status.pictures.trouble.empty() || !pose_trouble.empty() ||
-                       !pace_trouble.empty() || !driver_.registration_fault().empty();
+                       !pace_trouble.empty() || !driver_.registration_fault().empty() ||
+                       status.is_refusing;
   health.Say(status.pictures.trouble);
   health.Say(pace_trouble);
   health.Say(pose_trouble);

@@ -71,6 +71,7 @@ class StereoDriverService {
   void Publish(const geometry::CameraPose& pose);
   const capture::MountConfig& mount() const;
   void LogRegistration();
+  void LogRefusal();
   void LogSummary() const;
 
   StereoDriverServiceConfig config_;
@@ -81,6 +82,7 @@ class StereoDriverService {
   std::int64_t published_ = 0;  ///< Frames.
   program::SourceLog log_;
   std::string logged_registration_fault_;
+  std::string logged_refusal_;
 };
 
 }  // namespace deixis::stereo_driver

@@ -354,6 +354,17 @@ def heard(*statuses: Any) -> Traffic:
     return traffic
 
 
+def test_what_the_kernel_dropped_is_loss_and_no_fault_of_types() -> None:
+    before, after = status("tracker", ("*",), wrong=2), status("tracker", ("*",), wrong=9)
+    for message in before, after:
+        message.channels[0].drops[0].reason = "kernel_buffer_full"
+    traffic = heard(before, after)
+    assert [finding.level for finding in services.types(traffic, COMMANDS)] == [OK]
+    [finding] = services.loss(traffic, 0, COMMANDS)
+    assert finding.level == WARNING and "dropped 7 datagrams to tracker" in finding.text
+    assert "rmem_max" in finding.cure
+
+
 @pytest.mark.parametrize(("before", "after", "level"), [(3, 3, WARNING), (3, 4, PROBLEM)])
 def test_messages_that_a_service_refuses_are_told(before: int, after: int, level: str) -> None:
     traffic = heard(status("tracker", ("CAMERA",), wrong=before),

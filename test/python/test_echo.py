@@ -299,3 +299,10 @@ def test_every_type_can_be_printed(name: str) -> None:
     assert list(plain) == message.__slots__
     assert yaml.safe_load(text_forms.as_yaml(plain)) == plain
     assert list(json.loads(text_forms.as_json(plain))) == message.__slots__
+
+
+def test_a_channel_that_lacks_the_field_ends_it(url: str) -> None:
+    with speaking(url, lambda number: ("HANDS", tracks(number).encode())):
+        result = deixis(url, "echo", "HANDS", "--field", "hands[*].nosuch", "--count", 1, seconds=20)
+    assert result.returncode == 1
+    assert "has no field nosuch" in result.stderr

@@ -257,6 +257,18 @@ def test_restart_of_one_gives_it_a_new_process(bench: Bench) -> None:
     assert before[1]["pid"] == after[1]["pid"]
 
 
+def test_a_system_file_that_has_changed_meanwhile_is_told(bench: Bench) -> None:
+    bench.write({"a": {}})
+    assert "has changed" not in bench.deixis("start").stderr
+    bench.write({"a": {}, "b": {}})
+    result = bench.deixis("start", "b")
+    assert result.returncode == 1
+    assert "has changed since the system was started" in result.stderr
+    assert "`deixis restart` without names takes the changes" in result.stderr
+    assert "has changed" not in bench.deixis("restart").stderr
+    assert "has changed" not in bench.deixis("start", "b").stderr
+
+
 def test_two_starts_at_once_make_one_supervisor(bench: Bench) -> None:
     bench.write({"a": {}})
     both = [bench.begin("start") for _ in range(2)]

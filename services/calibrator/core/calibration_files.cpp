@@ -52,7 +52,7 @@ void WriteUnfinished(const FileText& file) {
   std::ofstream out(UnfinishedName(file.path), std::ios::binary);
   out << file.text;
   out.close();
-  if (!out) Refuse(file.path, "cannot be written: free some space, or name another --output");
+  if (!out) Refuse(file.path, "cannot be written: free some space, or name another file");
 }
 
 void RemoveUnfinished(const std::vector<FileText>& files) {
@@ -65,7 +65,7 @@ void RequireFolder(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder)) {
-    Refuse(folder, "cannot be made: " + error.message() + "; name another --output");
+    Refuse(folder, "cannot be made: " + error.message() + "; name another folder");
   }
 }
 

@@ -12,6 +12,7 @@ constexpr double kLargestAspect = 1.1;
 constexpr double kNarrowest_deg = 5.0;
 constexpr double kWidest_deg = 170.0;
 constexpr double kSquareError = 0.05;
+constexpr double kLeastBaseline_m = 0.001;
 
 using Faults = std::vector<std::string>;
 
@@ -94,6 +95,9 @@ Faults ErrorFaults(const LensFit& fit, const Demands& demands) {
 
 Faults PlaceFaults(const StereoFit& fit) {
   const cv::Vec3d& t = fit.translation_m;
+  if (!(cv::norm(t) > kLeastBaseline_m)) {
+    return {"both cameras stand at one place: are the pictures of both sides the same?"};
+  }
   if (std::abs(t[0]) <= std::abs(t[1])) {
     return {"the cameras stand one above the other: turn the pair by 90 degrees"};
   }
@@ -121,7 +125,9 @@ Faults StereoErrorFaults(const StereoCalibration& calibration, const Demands& de
                   "same moment, hold the board still",
                   calibration.rows_px.median, demands.rows_px),
           faults);
-  Require(std::abs(calibration.median_square - 1.0) < kSquareError,
+  // Cameras at one place, which has been told, see no depth.
+  const bool has_squares = std::isfinite(calibration.median_square);
+  Require(!has_squares || std::abs(calibration.median_square - 1.0) < kSquareError,
           Figures("squares are measured %.1f %% off their size: tilt the board more, show it "
                   "nearer",
                   100.0 * (calibration.median_square - 1.0)),

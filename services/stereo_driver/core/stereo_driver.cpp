@@ -190,14 +190,26 @@ StereoOutput StereoDriver::Convert(const images::RgbdImage& image) {
 void StereoDriver::PrepareRig(cv::Size size) {
   if (matcher_ && IsOfSize(calibration_, size)) return;
   if (refused_size_ == size) throw UnusableFrame(refusal_);
-  auto [calibration, remark] = rig_->For(size);
+  refused_size_ = size;  // Until all has gone well.
+  auto [calibration, remark] = KnownFor(*rig_, size);
   refusal_ = MatchingFault(config_.matcher, calibration);
-  refused_size_ = refusal_.empty() ? cv::Size() : size;
   if (!refusal_.empty()) throw UnusableFrame(refusal_);
+  refused_size_ = {};
   matcher_.emplace(config_.matcher, calibration);
   calibration_ = std::move(calibration);
   remark_ = std::move(remark);
   schedule_.BeginAnew();
+}
+
+template <typename Calibration>
+auto StereoDriver::KnownFor(const Calibration& calibration, cv::Size size)
+    -> decltype(calibration.For(size)) {
+  try {
+    return calibration.For(size);
+  } catch (const config::ConfigError& fault) {
+    refusal_ = fault.what();
+    throw UnusableFrame(refusal_);
+  }
 }
 
 void StereoDriver::UseLens(const geometry::CameraCalibration& lens) {
@@ -213,7 +225,7 @@ void StereoDriver::PrepareDepthCamera(cv::Size size, cv::Size depth_size) {
   const bool is_same = depth_camera_size_ == depth_size || !registration_;
   if (depth_camera_ && IsOfSize(calibration_, size) && is_same) return;
   depth_camera_.reset();
-  auto [lens, remark] = lens_->For(size);
+  auto [lens, remark] = KnownFor(*lens_, size);
   remark_ = std::move(remark);
   calibration_ = AsStereo(std::move(lens), config_.depth_camera.depth_sigma_m_at_1m);
   depth_camera_.emplace(calibration_, config_.matcher.depth_size, ViewOfDepth(depth_size));
@@ -250,6 +262,7 @@ FrameSourceStatus StereoDriver::status() const {
   if (lens_wait_) status.pictures.skipped += lens_wait_->held_back();
   status.unusable += unusable_;
   status.last_unusable = last_unusable_;
+  status.is_refusing = is_refusing_;
   return status;
 }
 

@@ -97,21 +97,24 @@ class StereoDriver {
   StereoDriver(const StereoDriverConfig& config, std::unique_ptr<FrameSource> source,
                KeepPairs keep_pairs);
 
-  /// The next frame that is due at `now` (wall clock); never waits for a camera. Throws ConfigError
-  /// when the calibration does not suit the pictures.
+  /// The next frame that is due at `now` (wall clock); never waits for a camera. What cannot be
+  /// converted is counted.
   StereoStep Next(Timestamp now);
 
-  /// Throws UnusableFrame when the pictures are too small or too large to be matched, and
-  /// ConfigError when the calibration does not suit them.
+  /// Throws UnusableFrame when the pictures are too small or too large to be matched, or the
+  /// calibration does not suit them.
   StereoOutput Convert(const images::StereoPair& pair);
-  /// Throws UnusableFrame when the depth cannot cover the colour picture's view.
+  /// Throws UnusableFrame when the depth cannot cover the colour picture's view, or the calibration
+  /// does not suit them.
   StereoOutput Convert(const images::RgbdImage& image);
   /// The same, but of an unusable frame nothing; it is counted.
   template <typename Images>
   std::optional<StereoOutput> TryConvert(const Images& images) {
     try {
+      is_refusing_ = false;
       return Convert(images);
     } catch (const UnusableFrame& reason) {
+      is_refusing_ = true;
       ++unusable_;
       last_unusable_ = reason.what();
       return std::nullopt;
@@ -140,6 +143,9 @@ class StereoDriver {
   bool IsDue(Timestamp now);
   std::optional<StereoOutput> ConvertAt(Timestamp time, Frame frame);
   void PrepareRig(cv::Size size);
+  /// What is known of a camera at a size; throws UnusableFrame when that is nothing.
+  template <typename Calibration>
+  auto KnownFor(const Calibration& calibration, cv::Size size) -> decltype(calibration.For(size));
   void PrepareDepthCamera(cv::Size size, cv::Size depth_size);
   std::optional<DepthView> ViewOfDepth(cv::Size depth_size);
   StereoOutput Packed(const RectifiedDepth& depth, Timestamp time);
@@ -153,6 +159,7 @@ class StereoDriver {
   std::optional<Frame> waiting_;  ///< Recorded frame whose time has not come.
   std::int64_t unusable_ = 0;     ///< Frames that could not be converted.
   std::string last_unusable_;     ///< Why the last of them could not.
+  bool is_refusing_ = false;      ///< The last frame could not.
 
   std::optional<RigCalibration> rig_;                    ///< For pairs.
   cv::Size refused_size_;                                ///< Of pairs that cannot be matched.

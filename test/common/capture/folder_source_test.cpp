@@ -144,6 +144,16 @@ TEST_F(FolderSourceTest, CountsCorruptPicturesAndGoesOn) {
   EXPECT_EQ(source.status().corrupt, 2);
 }
 
+TEST_F(FolderSourceTest, CountsCutJpegFilesAsCorrupt) {
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", cv::Mat(48, 64, CV_8UC3, cv::Scalar(9, 9, 9)), jpeg);
+  folder_.Write("1.jpg", std::string(jpeg.begin(), jpeg.end()));
+  folder_.Write("2.jpg", std::string(jpeg.begin(), jpeg.end() - 40));
+  FolderSource source(Config(10.0));
+  EXPECT_EQ(Greys(source).size(), 1u);
+  EXPECT_EQ(source.status().corrupt, 1);
+}
+
 TEST_F(FolderSourceTest, CountsPicturesOfAbsurdSizesAsCorrupt) {
   folder_.Write("1.ppm", "P6 2097152 1 255 ");                          // OpenCV throws at it.
   folder_.Write("2.pgm", "P5 70000 1 255 " + std::string(70000, 'x'));  // No JPEG is as wide.

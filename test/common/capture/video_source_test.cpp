@@ -72,6 +72,10 @@ TEST_F(VideoSourceTest, GivesWhatIsLeftOfAFileThatIsCutShort) {
   const std::vector<std::int64_t> times = Times();
   EXPECT_GT(times.size(), 2u);
   EXPECT_LT(times.size(), 20u);
+  VideoSource source(config_);
+  while (source.Next().picture) {
+  }
+  EXPECT_THAT(source.status().last_corrupt, testing::HasSubstr("of 20 pictures"));
 }
 
 TEST_F(VideoSourceTest, GoesOnBehindDamage) {

@@ -92,6 +92,16 @@ TEST(Url, WithAKeyButNoValueIsAnError) {
   }
 }
 
+TEST(Url, OfUdpmNeedsAMulticastGroup) {
+  for (const std::string text :
+       {"udpm://10.0.0.1:7691", "udpm://localhost:7667", "udpm://240.0.0.1", "udpm://:7667"}) {
+    EXPECT_THAT([&] { ResolveUrl(text, 1000); },
+                testing::ThrowsMessage<BusError>(testing::HasSubstr("is no multicast group")))
+        << text;
+  }
+  EXPECT_NO_THROW(ResolveUrl("udpm://", 1000));
+}
+
 TEST(Url, OfTcpqNeedsAPortToo) {
   EXPECT_THAT([] { ResolveUrl("tcpq://127.0.0.1:99999", 1000); },
               testing::ThrowsMessage<BusError>(testing::HasSubstr("the port must be")));

@@ -224,6 +224,11 @@ TEST(StereoCalibration, EveryPartOfItIsJudged) {
                 spoilt.fit.translation_m = {-0.1, 0.2, 0.0};
               }),
               ElementsAre(StartsWith("the cameras stand one above the other")));
+  EXPECT_THAT(faults_when([](auto& spoilt) {
+                spoilt.fit.translation_m = {1e-6, 1e-5, 0.0};
+                spoilt.median_square = std::nan("");
+              }),
+              ElementsAre(StartsWith("both cameras stand at one place")));
   EXPECT_THAT(faults_when([](auto& spoilt) { spoilt.fit.error_px = 1.1; }),
               ElementsAre(StartsWith("a stereo reprojection error of 1.10 px")));
   EXPECT_THAT(faults_when([](auto& spoilt) { spoilt.rows_px.median = 1.1; }),

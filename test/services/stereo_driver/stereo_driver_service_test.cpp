@@ -315,8 +315,9 @@ TEST_F(StereoDriverServiceTest, CountsADimosRobotsFramesThatCannotBeUsedAndGoesO
   send(100'000, {320, 120}, {320, 120});  // Not what the lens file is for.
   send(200'000, {320, 240}, {320, 120});  // Two views.
   EXPECT_TRUE(received_.empty());
-  EXPECT_EQ(DropsOn("/depth_image#sensor_msgs.Image")["handler_failed"], 1);
-  EXPECT_THAT(service.health().text, HasSubstr("1 pictures that make no pair"));
+  EXPECT_THAT(DropsOn("/depth_image#sensor_msgs.Image"), IsEmpty());
+  EXPECT_THAT(service.health().text, HasSubstr("2 pictures that make no pair"));
+  EXPECT_TRUE(service.health().is_degraded);
   send(300'000, {320, 240}, {320, 240});
   EXPECT_EQ(received_.size(), 1u);
 }
@@ -343,10 +344,28 @@ TEST_F(StereoDriverServiceTest, CountsPairsThatItsCalibrationDoesNotSuitAndGoesO
   wide.left.bgr = wide.right.bgr = cv::Mat(120, 320, CV_8UC3, cv::Scalar(0, 0, 0));
   bus_.Publish("STEREO_PAIR", wide);
   test::HandleAll(bus_);
+  EXPECT_TRUE(service.health().is_degraded);
+  EXPECT_THAT(service.health().text, HasSubstr("1 pictures that make no pair: "));
+  EXPECT_THAT(service.health().text, HasSubstr("another aspect"));
   bus_.Publish("STEREO_PAIR", pair_);
   test::HandleAll(bus_);
-  EXPECT_EQ(DropsOn("STEREO_PAIR")["handler_failed"], 1);
+  EXPECT_FALSE(service.health().is_degraded);
+  EXPECT_THAT(DropsOn("STEREO_PAIR"), IsEmpty());
   EXPECT_EQ(received_.size(), 1u);
+}
+
+TEST_F(StereoDriverServiceTest, PlaysARecordingOnBehindPairsThatItsCalibrationDoesNotSuit) {
+  config_.driver.calibration.width_px = 320;
+  config_.driver.calibration.height_px = 240;
+  UseFolders(FrameSourceKind::kTwoCameras);
+  const cv::Mat wide(120, 320, CV_8UC3, cv::Scalar(0, 0, 0));
+  for (const char* side : {"left", "right"}) {
+    Write(side + std::string("1.png"), pair_.left.bgr);
+    Write(side + std::string("2.png"), wide);
+    Write(side + std::string("3.png"), pair_.left.bgr);
+  }
+  RunToTheEnd();
+  EXPECT_EQ(received_.size(), 2u);
 }
 
 TEST_F(StereoDriverServiceTest, SaysWhenNothingOfARecordingBelongsTogether) {

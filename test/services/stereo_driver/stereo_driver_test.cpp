@@ -312,7 +312,7 @@ TEST_F(StereoDriverTest, RefusesPairsOfAnotherAspectThanTheCalibrationAndGoesOn)
   StereoDriver driver(config_, nullptr, KeepPairs::kNo);
   images::StereoPair wide = pair_;
   wide.left.bgr = wide.right.bgr = cv::Mat(120, 320, CV_8UC3, cv::Scalar(0, 0, 0));
-  EXPECT_THROW(driver.Convert(wide), config::ConfigError);
+  EXPECT_THROW(driver.Convert(wide), UnusableFrame);
   EXPECT_EQ(driver.Convert(pair_).stereo.left.width_px, 320);
 }
 

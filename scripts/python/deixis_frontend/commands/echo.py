@@ -64,8 +64,13 @@ class _Printer:
             message = self._decoder.decode(arrival)
             if message is not None:
                 self._print(arrival, message)
-            if self.printed == self._arguments.count:
+            if self.printed == self._arguments.count or self._can_print_nothing():
                 return
+
+    def _can_print_nothing(self) -> bool:
+        """Whether each channel was named and has spoken, without the field that is asked for."""
+        asked = {channel.pattern for channel in self._arguments.channels}
+        return not self.printed and bool(asked) and asked <= {name for name, _ in self._without_field}
 
     def say_what_was_left_out(self) -> None:
         """What did not decode, and why."""

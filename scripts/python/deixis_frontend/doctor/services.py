@@ -14,6 +14,8 @@ from deixis_frontend.printable import printable
 from deixis_frontend.supervision.control_client import Client
 from deixis_frontend.supervision.system_file import SERVICE_NAME, System
 
+_KERNEL_DROPPED = "kernel_buffer_full"
+
 
 def supervisor(client: Client, system: System, commands: CommandLines) -> list[Finding]:
     """Whether the system runs, and on the bus that we look at."""
@@ -59,6 +61,8 @@ def _refusals(first: Any, last: Any, service: str, commands: CommandLines) -> li
     findings = []
     for channel in last.channels:
         for drop in channel.drops:
+            if drop.reason == _KERNEL_DROPPED:
+                continue  # It is loss.
             name, reason = printable(channel.name), printable(drop.reason)
             is_going_on = drop.count > before.get((channel.name, drop.reason), 0)
             findings.append(Finding(
@@ -79,6 +83,12 @@ def loss(traffic: Traffic, granted: int, commands: CommandLines) -> list[Finding
                 WARNING, "loss", f"{service} has a receive buffer of {last.receive_buffer_bytes}"
                 f" bytes, it would get {granted} now",
                 _restart(last, commands)))
+        if (dropped := _kernel_dropped(last) - _kernel_dropped(first)) > 0:
+            findings.append(Finding(
+                WARNING, "loss", f"the kernel dropped {dropped} datagrams to {service} while we"
+                f" listened: its receive buffer of {last.receive_buffer_bytes} bytes was full",
+                f"sysctl -w net.core.rmem_max={lcm_url.RECEIVE_BUFFER_BYTES}, then `deixis restart`; or"
+                " smaller messages"))
         before = {channel.name: channel.gaps for channel in first.channels}
         for channel in last.channels:
             lost = channel.gaps - before.get(channel.name, channel.gaps)
@@ -88,6 +98,11 @@ def loss(traffic: Traffic, granted: int, commands: CommandLines) -> list[Finding
                                         f" ({lost} while we listened)",
                                         commands.on_bus("hz", name)))
     return findings or [Finding(OK, "loss", "no service misses messages")]
+
+
+def _kernel_dropped(status: Any) -> int:
+    return sum(drop.count for channel in status.channels for drop in channel.drops
+               if drop.reason == _KERNEL_DROPPED)
 
 
 def versions(traffic: Traffic, commands: CommandLines) -> list[Finding]:

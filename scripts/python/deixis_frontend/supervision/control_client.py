@@ -42,7 +42,11 @@ class Client:
                 on_service: Callable[[Line], None] = lambda _: None) -> Line:
         """Has a command carried out; calls on_service with the facts of each service done."""
         if command != "status":
-            self.own_status()  # A supervisor that hangs is told from one that works.
+            status = self.own_status()  # A supervisor that hangs is told from one that works.
+            if command in ("start", "restart") and status.get("file_digest") != self._system.digest:
+                print(f"deixis: {self._system.path} has changed since the system was started, which"
+                      " goes on as it was: `deixis restart` without names takes the changes",
+                      file=sys.stderr)
         with self._connect() as connection:
             request = {"command": command, "names": names,
                        "system_file": str(self._system.path.resolve())}

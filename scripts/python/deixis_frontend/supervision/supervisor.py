@@ -103,6 +103,7 @@ class Supervisor:
         return {
             "system": self.system.name,
             "file": str(self.system.path),
+            "file_digest": self.system.digest,
             "lcm_url": str(self._url),
             "supervisor_pid": os.getpid(),
             "is_in_foreground": self._echo is not None,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -55,6 +56,7 @@ class System:
     start: tuple[str, ...]
     log: LogSettings
     services: dict[str, ServiceEntry]
+    digest: str = ""  # of the file's text
 
     def groups(self) -> list[str]:
         """All groups, in the order of the file."""
@@ -109,6 +111,7 @@ def load(path: Path) -> System:
         start=top.texts("start"),
         log=_log(top.section("log")),
         services=_services(top),
+        digest=hashlib.sha256(path.read_bytes()).hexdigest(),
     )
     top.finish()
     _check(system, top)

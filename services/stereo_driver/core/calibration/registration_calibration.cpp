@@ -16,11 +16,7 @@ const BaselineLimits kBaselineLimits = {0, 300, "depth_camera.registration.unit_
 std::string Cure(const std::string& key) { return "set depth_camera.registration." + key; }
 
 std::string Find(const std::string& name, const std::string& key) {
-  try {
-    return config::FindConfig(name).string();
-  } catch (const config::ConfigError& error) {
-    throw config::ConfigError(error.what() + ("; " + Cure(key)));
-  }
+  return config::FindConfig(name, Cure(key)).string();
 }
 
 OpenCvFile Open(const std::string& name, const std::string& key) {

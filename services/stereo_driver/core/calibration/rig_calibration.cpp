@@ -93,6 +93,11 @@ void RequireUsableView(const StereoCalibration& calibration, const std::string& 
   }
 }
 
+OpenCvFile Open(const std::string& name, const std::string& key) {
+  const std::string cure = "set calibration." + key;
+  return {config::FindConfig(name, cure).string(), cure};
+}
+
 }  // namespace
 
 void RigCalibrationConfig::Validate() const {
@@ -113,10 +118,8 @@ void RigCalibrationConfig::Validate() const {
 }
 
 RigCalibration::RigCalibration(RigCalibrationConfig config) : config_(std::move(config)) {
-  const OpenCvFile intrinsics(config::FindConfig(config_.intrinsics).string(),
-                              "set calibration.intrinsics");
-  const OpenCvFile extrinsics(config::FindConfig(config_.extrinsics).string(),
-                              "set calibration.extrinsics");
+  const OpenCvFile intrinsics = Open(config_.intrinsics, "intrinsics");
+  const OpenCvFile extrinsics = Open(config_.extrinsics, "extrinsics");
   if (intrinsics.IsFisheye()) {
     intrinsics.Fail("has fisheye lenses; calibrate with OpenCV's stereo_calib (pinhole lenses)");
   }

@@ -27,6 +27,7 @@ struct FrameSourceStatus {
   std::int64_t unmatched_right = 0;  ///< Right or depth pictures without a partner in time.
   std::int64_t unusable = 0;         ///< Pictures that do not make a frame: sizes, odd widths.
   std::string last_unusable;         ///< Why the last of them did not; empty = by its size.
+  bool is_refusing = false;          ///< The newest one did not, by what is known of the cameras.
 };
 
 /// Where frames come from that nobody sends on the bus.
