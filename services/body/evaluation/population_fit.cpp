@@ -1,5 +1,6 @@
 #include "services/body/evaluation/population_fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -34,20 +35,24 @@ Eigen::MatrixXd Table(const std::vector<const BodyMeasure*>& measures, const Sur
   return table;
 }
 
+/// Moves all means by regression to where the tables have the mean stature.
+void MoveToTheTables(const std::vector<const BodyMeasure*>& measures, Sex sex, Population& fit) {
+  const auto stature =
+      std::find_if(measures.begin(), measures.end(),
+                   [](const BodyMeasure* measure) { return measure->name == kStature; });
+  if (stature == measures.end() || !(*stature)->Of(sex)) return;
+  const auto place = stature - measures.begin();
+  const double taller_m = kMetresPerMillimetre * (*stature)->Of(sex)->p50 - fit.mean_m[place];
+  fit.mean_m += fit.covariance_m2.col(place) / fit.covariance_m2(place, place) * taller_m;
+}
+
 Population Fit(const std::vector<const BodyMeasure*>& measures, const Survey& survey, Sex sex,
                Half half) {
   const Eigen::MatrixXd table = Table(measures, survey, half);
   const Eigen::VectorXd surveyed_m = table.colwise().mean().transpose();
   const Eigen::MatrixXd centred = table.rowwise() - surveyed_m.transpose();
   Population fit{surveyed_m, centred.transpose() * centred / static_cast<double>(table.rows() - 1)};
-  Eigen::Index stature = 0;
-  for (std::size_t k = 0; k < measures.size(); ++k) {
-    if (measures[k]->name == kStature) stature = static_cast<Eigen::Index>(k);
-  }
-  const double taller_m =
-      kMetresPerMillimetre * measures[static_cast<std::size_t>(stature)]->Of(sex)->p50 -
-      surveyed_m[stature];
-  fit.mean_m += fit.covariance_m2.col(stature) / fit.covariance_m2(stature, stature) * taller_m;
+  MoveToTheTables(measures, sex, fit);
   for (std::size_t k = 0; k < measures.size(); ++k) {
     const auto& percentiles = measures[k]->Of(sex);
     if (!percentiles) continue;
