@@ -1,8 +1,8 @@
 #pragma once
 #include "common/anthropometry/population.h"
-#include "services/body/evaluation/survey.h"
+#include "services/anthropometer/evaluation/survey.h"
 
-namespace deixis::body {
+namespace deixis::anthropometer {
 
 /// People of a survey by their number: some to learn from, the others to test with.
 enum class Half { kOdd, kEven };
@@ -25,4 +25,4 @@ struct Surveys {
 anthropometry::Populations FitPopulations(const anthropometry::BodyMeasures& measures,
                                           const Surveys& surveys, Half half);
 
-}  // namespace deixis::body
+}  // namespace deixis::anthropometer

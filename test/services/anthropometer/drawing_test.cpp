@@ -1,4 +1,4 @@
-#include "services/body/core/drawing.h"
+#include "services/anthropometer/core/drawing.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "common/body_model/body_plan.h"
 #include "common/body_model/kinematics.h"
 
-namespace deixis::body {
+namespace deixis::anthropometer {
 namespace {
 
 body_model::BodyModel Person(const std::string& name) {
@@ -71,4 +71,4 @@ TEST(Drawing, StandsUprightWithHangingArms) {
 }
 
 }  // namespace
-}  // namespace deixis::body
+}  // namespace deixis::anthropometer

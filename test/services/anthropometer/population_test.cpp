@@ -8,10 +8,10 @@
 
 #include "common/anthropometry/person_estimate.h"
 #include "common/config/config.h"
-#include "services/body/evaluation/population_score.h"
+#include "services/anthropometer/evaluation/population_score.h"
 #include "test/support/temporary_folder.h"
 
-namespace deixis::body {
+namespace deixis::anthropometer {
 namespace {
 
 using anthropometry::BodyMeasures;
@@ -181,4 +181,4 @@ TEST(Survey, NamesTheLineOrColumnThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace deixis::body
+}  // namespace deixis::anthropometer

@@ -6,7 +6,7 @@
 
 #include "common/anthropometry/body_measures.h"
 
-namespace deixis::body {
+namespace deixis::anthropometer {
 
 /// A survey's table: people by columns, ANSUR II's units (mostly millimetres).
 class Survey {
@@ -26,4 +26,4 @@ class Survey {
   std::map<std::string, std::vector<double>> columns_;
 };
 
-}  // namespace deixis::body
+}  // namespace deixis::anthropometer

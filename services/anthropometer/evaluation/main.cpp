@@ -7,9 +7,9 @@
 
 #include "common/config/config.h"
 #include "common/program/command_line.h"
-#include "services/body/evaluation/population_score.h"
+#include "services/anthropometer/evaluation/population_score.h"
 
-namespace deixis::body {
+namespace deixis::anthropometer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,11 +90,11 @@ void Run(const Arguments& arguments) {
 }
 
 }  // namespace
-}  // namespace deixis::body
+}  // namespace deixis::anthropometer
 
 int main(int argc, char** argv) {
   try {
-    deixis::body::Run(deixis::body::Parse(argc, argv));
+    deixis::anthropometer::Run(deixis::anthropometer::Parse(argc, argv));
   } catch (const std::exception& error) {
     std::cerr << "deixis-evaluate-body: " << error.what() << "\n";
     return deixis::program::kCannotWork;

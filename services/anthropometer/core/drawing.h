@@ -3,7 +3,7 @@
 
 #include "common/body_model/body_model.h"
 
-namespace deixis::body {
+namespace deixis::anthropometer {
 
 /// From where a body is looked at.
 enum class View { kFront, kSide };
@@ -21,4 +21,4 @@ cv::Mat DrawFrontAndSide(const body_model::BodyModel& model, const body_model::B
 /// Upright, arms and legs hanging.
 body_model::BodyPose Standing(const body_model::BodyModel& model);
 
-}  // namespace deixis::body
+}  // namespace deixis::anthropometer

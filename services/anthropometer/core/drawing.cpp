@@ -1,4 +1,4 @@
-#include "services/body/core/drawing.h"
+#include "services/anthropometer/core/drawing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "common/body_model/joint_angles.h"
 #include "common/body_model/kinematics.h"
 
-namespace deixis::body {
+namespace deixis::anthropometer {
 namespace {
 
 using body_model::BodyModel;
@@ -144,4 +144,4 @@ BodyPose Standing(const BodyModel& model) {
   return pose;
 }
 
-}  // namespace deixis::body
+}  // namespace deixis::anthropometer

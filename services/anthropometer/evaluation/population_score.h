@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "common/anthropometry/person_estimate.h"
-#include "services/body/evaluation/population_fit.h"
+#include "services/anthropometer/evaluation/population_fit.h"
 
-namespace deixis::body {
+namespace deixis::anthropometer {
 
 /// How well unmeasured lengths follow from measured ones.
 struct PredictionScore {
@@ -37,4 +37,4 @@ PopulationScore Score(const anthropometry::Populations& populations,
                       const anthropometry::BodyMeasures& measures, const Surveys& surveys,
                       Half half, const std::vector<std::string>& given, double error_m);
 
-}  // namespace deixis::body
+}  // namespace deixis::anthropometer

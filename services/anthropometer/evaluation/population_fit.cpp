@@ -1,4 +1,4 @@
-#include "services/body/evaluation/population_fit.h"
+#include "services/anthropometer/evaluation/population_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "common/config/config.h"
 
-namespace deixis::body {
+namespace deixis::anthropometer {
 namespace {
 
 using anthropometry::BodyMeasure;
@@ -83,4 +83,4 @@ anthropometry::Populations FitPopulations(const anthropometry::BodyMeasures& mea
           Fit(surveyed, surveys.male, Sex::kMale, half)};
 }
 
-}  // namespace deixis::body
+}  // namespace deixis::anthropometer

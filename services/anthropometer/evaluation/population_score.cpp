@@ -1,4 +1,4 @@
-#include "services/body/evaluation/population_score.h"
+#include "services/anthropometer/evaluation/population_score.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "common/config/config.h"
 
-namespace deixis::body {
+namespace deixis::anthropometer {
 namespace {
 
 using anthropometry::MeasuredLength;
@@ -122,4 +122,4 @@ PopulationScore Score(const anthropometry::Populations& populations,
   return score;
 }
 
-}  // namespace deixis::body
+}  // namespace deixis::anthropometer

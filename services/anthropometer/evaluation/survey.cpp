@@ -1,4 +1,4 @@
-#include "services/body/evaluation/survey.h"
+#include "services/anthropometer/evaluation/survey.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,7 +8,7 @@
 
 #include "common/config/config.h"
 
-namespace deixis::body {
+namespace deixis::anthropometer {
 namespace {
 
 constexpr double kMetresPerMillimetre = 0.001;
@@ -86,4 +86,4 @@ double Survey::Measure_m(const anthropometry::BodyMeasure& measure, std::size_t 
   return kMetresPerMillimetre * sum_mm;
 }
 
-}  // namespace deixis::body
+}  // namespace deixis::anthropometer
