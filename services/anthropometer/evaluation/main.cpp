@@ -64,10 +64,10 @@ void Print(const PopulationScore& score) {
     std::printf("%s,%.1f,%.1f,%.1f,%.1f,%.3f\n", row.measure.c_str(), row.median_mm, row.p95_mm,
                 row.stated_spread_mm, row.bias_mm, row.share_within_90);
   }
-  std::printf("people %d\n", score.people);
-  std::printf("sex accuracy %.3f, sure %.3f of which right %.3f, calibration error %.3f\n",
-              score.sex.accuracy, score.sex.sure_share, score.sex.sure_accuracy,
-              score.sex.calibration_error);
+  std::printf(
+      "\npeople,accuracy,sure_share,sure_accuracy,calibration_error\n%d,%.4f,%.4f,%.4f,%.4f\n",
+      score.people, score.sex.accuracy, score.sex.sure_share, score.sex.sure_accuracy,
+      score.sex.calibration_error);
 }
 
 void Run(const Arguments& arguments) {

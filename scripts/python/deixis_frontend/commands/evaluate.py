@@ -6,6 +6,7 @@ from deixis_frontend.cli import Command
 
 _PACKAGE = "deixis_frontend.evaluation"
 SUBCOMMANDS: dict[str, Command] = {
+    "body": Command(f"{_PACKAGE}.body", "what follows of a person's sizes from a few lengths"),
     "calibration": Command(f"{_PACKAGE}.calibration", "stereo calibration against OpenCV's sample"),
     "depth": Command(f"{_PACKAGE}.depth", "how much of people has a depth, and how exact it is"),
     "events": Command(f"{_PACKAGE}.events", "what is named when, on recordings of real people"),

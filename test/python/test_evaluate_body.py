@@ -1,0 +1,54 @@
+"""`deixis evaluate body`, on a survey of made-up people."""
+
+from __future__ import annotations
+
+import json
+import random
+from pathlib import Path
+
+import pytest
+
+from deixis_frontend.cli import main
+
+COLUMNS = """abdominal stature sittingheight eyeheightsitting acromialheight shoulderelbowlength tibialheight
+ lateralmalleolusheight span interpupillarybreadth acromionradialelength radialestylionlength handlength palmlength
+ footlength headbreadth bideltoidbreadth handbreadth hipbreadth elbowrestheight buttockkneelength kneeheightsitting
+ poplitealheight neckcircumference headlength biacromialbreadth chestbreadth chestdepth waistbreadth waistdepth
+ waistheightomphalion buttockdepth iliocristaleheight trochanterionheight lateralfemoralepicondyleheight cervicaleheight
+ suprasternaleheight tragiontopofhead bicepscircumferenceflexed forearmcircumferenceflexed wristcircumference
+ thighcircumference lowerthighcircumference calfcircumference anklecircumference footbreadthhorizontal
+ heelbreadth""".split()
+
+
+@pytest.fixture
+def survey(tmp_path: Path) -> Path:
+    chance = random.Random(1)
+    for sex, mean in (("FEMALE", 1680.0), ("MALE", 1802.0)):
+        rows = [",".join(["SubjectId", *COLUMNS])]
+        for person in range(40):
+            stature = chance.gauss(mean, 60.0)
+            rows.append(",".join([str(person), *(str(stature if name == "stature" else 0.19 * stature)
+                                                 for name in COLUMNS)]))
+        (tmp_path / f"ANSUR_II_{sex}_Public.csv").write_text("\n".join(rows) + "\n", encoding="ascii")
+    return tmp_path
+
+
+def test_figures_are_printed_and_written(survey: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["evaluate", "body", "--data", str(survey), "--given", "kph", "--error", "1",
+                 "--json", str(survey / "body.json")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "40 people, known: kph +- 1 mm"
+    assert lines[-1].startswith("sex: ")
+    report = json.loads((survey / "body.json").read_text(encoding="utf-8"))
+    rows = {row["measure"]: row for row in report["measures"]}
+    assert rows["kph"]["median_mm"] < 2.0
+    assert len(rows) == 52 and len(lines) == 2 + 52 + 1
+    assert report["sex"]["accuracy"] > 0.6
+
+
+def test_what_is_no_measure_or_no_survey_is_told(survey: Path, tmp_path: Path,
+                                                 capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["evaluate", "body", "--data", str(survey), "--given", "tail"]) == 1
+    assert "--given tail is no measure" in capsys.readouterr().err
+    assert main(["evaluate", "body", "--data", str(tmp_path / "none")]) == 1
+    assert "ANSUR_II_FEMALE_Public.csv:1: cannot be read" in capsys.readouterr().err
