@@ -2,11 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <exception>
-#include <filesystem>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -31,29 +27,25 @@ constexpr std::size_t kRationalValues = 8;
   throw config::ConfigError(path + ": " + fault);
 }
 
-void RequireReadableFile(const std::string& path, const std::string& cure) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
-    FailIn(path, "calibration file does not exist; " + cure);
+[[noreturn]] void FailToRead(const std::string& path, const FileContent& content,
+                             const std::string& cure) {
+  switch (content.fault) {
+    case FileFault::kNoRegularFile:
+      FailIn(path, "calibration file does not exist; " + cure);
+    case FileFault::kTooLarge:
+      FailIn(path, "has more than " + std::to_string(kLargestOpenCvFile >> 20U) +
+                       " MB, as no calibration has; write it with OpenCV's calibration");
+    case FileFault::kUnreadable:
+    case FileFault::kNone:
+      break;
   }
-  errno = 0;
-  std::ifstream file(path);
-  file.peek();
-  if (!file.is_open() || file.bad()) {
-    FailIn(path, std::string("calibration file cannot be read: ") + std::strerror(errno) +
-                     "; check its rights");
-  }
+  FailIn(path, "calibration file cannot be read: " + content.reason + "; check its rights");
 }
 
 std::string ReadText(const std::string& path, const std::string& cure) {
-  RequireReadableFile(path, cure);
-  const auto bytes = ReadRegularFile(path, kLargestOpenCvFile);
-  if (!bytes) {
-    FailIn(path, "cannot be read to its end, or has more than " +
-                     std::to_string(kLargestOpenCvFile >> 20U) +
-                     " MB, as no calibration has; write it with OpenCV's calibration");
-  }
-  std::string text(bytes->begin(), bytes->end());
+  const FileContent content = ReadRegularFile(path, kLargestOpenCvFile);
+  if (content.fault != FileFault::kNone) FailToRead(path, content, cure);
+  std::string text(content.bytes.begin(), content.bytes.end());
   const std::string fault = OpenCvTextFault(text);
   if (!fault.empty()) FailIn(path, fault);
   return text;

@@ -18,7 +18,7 @@ bool IsCutJpeg(const std::vector<std::uint8_t>& bytes) {
 }  // namespace
 
 std::vector<std::uint8_t> ReadBytes(const std::filesystem::path& file) {
-  return ReadRegularFile(file, kLargestPictureFile).value_or(std::vector<std::uint8_t>());
+  return ReadRegularFile(file, kLargestPictureFile).bytes;
 }
 
 cv::Mat DecodePicture(const std::vector<std::uint8_t>& bytes, int flags) {

@@ -1,6 +1,8 @@
 #include "common/capture/regular_file.h"
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 namespace deixis::capture {
@@ -8,25 +10,26 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{64} * 1024;
 
+FileContent Unreadable() { return {{}, FileFault::kUnreadable, std::strerror(errno)}; }
+
 }  // namespace
 
-std::optional<std::vector<std::uint8_t>> ReadRegularFile(const std::filesystem::path& file,
-                                                         std::size_t most_bytes) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) return std::nullopt;
-  const auto stated = std::filesystem::file_size(file, ignored);
-  if (ignored || stated > most_bytes) return std::nullopt;
+FileContent ReadRegularFile(const std::filesystem::path& file, std::size_t most_bytes) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return {{}, FileFault::kNoRegularFile, ""};
+  const auto stated = std::filesystem::file_size(file, error);
+  if (!error && stated > most_bytes) return {{}, FileFault::kTooLarge, ""};
+  errno = 0;
   std::ifstream stream(file, std::ios::binary);
   // By pieces, since some files of /proc and those that still grow are longer than they say.
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(stated);
+  FileContent content;
+  if (!error) content.bytes.reserve(stated);
   std::array<char, kPiece> piece;
   while (stream.read(piece.data(), static_cast<std::streamsize>(kPiece)), stream.gcount() > 0) {
-    bytes.insert(bytes.end(), piece.data(), piece.data() + stream.gcount());
-    if (bytes.size() > most_bytes) return std::nullopt;
+    content.bytes.insert(content.bytes.end(), piece.data(), piece.data() + stream.gcount());
+    if (content.bytes.size() > most_bytes) return {{}, FileFault::kTooLarge, ""};
   }
-  if (!stream.eof()) return std::nullopt;
-  return bytes;
+  return stream.eof() ? content : Unreadable();
 }
 
 }  // namespace deixis::capture

@@ -2,14 +2,26 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
+#include <string>
 #include <vector>
 
 namespace deixis::capture {
 
-/// The bytes of a file. Nothing when it is no regular file (a folder, pipe or device, which may
-/// wait or never end), cannot be read, or has more than `most_bytes`.
-std::optional<std::vector<std::uint8_t>> ReadRegularFile(const std::filesystem::path& file,
-                                                         std::size_t most_bytes);
+/// Why there are no bytes of a file.
+enum class FileFault {
+  kNone,
+  kNoRegularFile,  ///< Not there, or a folder, pipe or device, which may wait or never end.
+  kUnreadable,     ///< No rights, or the disk is damaged.
+  kTooLarge,
+};
+
+struct FileContent {
+  std::vector<std::uint8_t> bytes;  ///< Empty when there is a fault.
+  FileFault fault = FileFault::kNone;
+  std::string reason;  ///< Of kUnreadable: what the system says.
+};
+
+/// A regular file to its end, opened once. At most `most_bytes` of memory are taken for it.
+FileContent ReadRegularFile(const std::filesystem::path& file, std::size_t most_bytes);
 
 }  // namespace deixis::capture

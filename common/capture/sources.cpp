@@ -1,12 +1,12 @@
 #include "common/capture/sources.h"
 
-#include <opencv2/core/utils/logger.hpp>
 #include <stdexcept>
 
 #include "common/capture/capture.h"
 #include "common/capture/folder_source.h"
 #include "common/capture/live_source.h"
 #include "common/capture/looped_source.h"
+#include "common/capture/quiet_opencv.h"
 #include "common/capture/video_source.h"
 
 namespace deixis::capture {
@@ -14,8 +14,7 @@ namespace {
 
 std::unique_ptr<Source> Open(const SourceConfig& config, const Clocks& clocks,
                              FolderContent content) {
-  // OpenCV would say a page on every way in which it failed to open something; ours is one line.
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  KeepOpenCvQuiet();
   switch (config.kind) {
     case SourceKind::kDevice:
       return std::make_unique<LiveSource>(DeviceCapture(config, clocks), clocks.monotonic);

@@ -1,10 +1,17 @@
 #include "common/transport/url.h"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
+
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <set>
+#include <string_view>
+#include <vector>
 
 #include "common/transport/bus.h"
 #include "common/transport/receive_buffer.h"
@@ -12,20 +19,40 @@
 namespace deixis::transport {
 namespace {
 
-// Which of two values counts would depend on the reader, and so does what an empty one means.
-void RequireKeysOnceWithValues(const std::string& text) {
-  std::set<std::string> keys;
+constexpr std::array<std::string_view, 2> kUdpmKeys{"ttl", "recv_buf_size"};
+
+struct Parameter {
+  std::string key;
+  std::string value;
+};
+
+[[noreturn]] void Fail(const std::string& text, const std::string& fault) {
+  throw BusError("LCM URL '" + text + "' " + fault);
+}
+
+std::vector<Parameter> Parameters(const std::string& text) {
+  std::vector<Parameter> parameters;
   for (auto at = text.find('?'); at != std::string::npos; at = text.find('&', at + 1)) {
-    const auto end = text.find_first_of("=&", at + 1);
-    const std::string key = text.substr(at + 1, end - at - 1);
-    const bool has_value = end != std::string::npos && text[end] == '=' && end + 1 < text.size() &&
-                           text[end + 1] != '&';
-    if (!key.empty() && !has_value) {
-      throw BusError("LCM URL '" + text + "' gives '" + key + "' no value; give one or remove it");
-    }
-    if (!key.empty() && !keys.insert(key).second) {
-      throw BusError("LCM URL '" + text + "' gives '" + key + "' twice; remove one");
-    }
+    const auto begin = at + 1;
+    const std::string part = text.substr(begin, text.find('&', begin) - begin);
+    if (part.empty()) continue;
+    const auto equals = part.find('=');
+    if (equals == 0) Fail(text, "gives no key for '" + part + "'; name one or remove it");
+    const std::string key = part.substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
+    // What it would mean depends on the reader.
+    if (value.empty()) Fail(text, "gives '" + key + "' no value; give one or remove it");
+    parameters.push_back({key, value});
+  }
+  return parameters;
+}
+
+// Which of two values counts would depend on the reader.
+void RequireKeysOnce(const std::string& text) {
+  std::set<std::string> keys;
+  for (const Parameter& parameter : Parameters(text)) {
+    if (keys.insert(parameter.key).second) continue;
+    Fail(text, "gives '" + parameter.key + "' twice; remove one");
   }
 }
 
@@ -35,8 +62,8 @@ void RequireInRange(const Url& url, const std::string& name, const std::string& 
   const char* end = value.data() + value.size();
   const auto [stop, error] = std::from_chars(value.data(), end, number);
   if (error == std::errc() && stop == end && number >= least && number <= most) return;
-  throw BusError("LCM URL '" + url.text + "': " + name + " must be a whole number from " +
-                 std::to_string(least) + " to " + std::to_string(most));
+  Fail(url.text, "is wrong: " + name + " must be a whole number from " + std::to_string(least) +
+                     " to " + std::to_string(most));
 }
 
 // LCM itself takes any number for another one, or says nothing of why it does not open.
@@ -47,17 +74,23 @@ void RequirePort(const Url& url) {
 }
 
 void RequireGroup(const Url& url) {
-  const std::string group = url.network.substr(0, url.network.find(':'));
-  int first = 0;
-  const auto [stop, error] = std::from_chars(group.data(), group.data() + group.size(), first);
-  const bool is_multicast = error == std::errc() && *stop == '.' && first >= 224 && first <= 239;
-  if (url.network.empty() || is_multicast) return;
-  throw BusError("LCM URL '" + url.text + "': '" + group +
-                 "' is no multicast group (224.0.0.0 to 239.255.255.255)");
+  if (url.network.empty()) return;
+  const auto colon = url.network.find(':');
+  const std::string group = url.network.substr(0, colon);
+  in_addr address{};
+  const bool is_address = inet_pton(AF_INET, group.c_str(), &address) == 1;
+  if (!is_address || !IN_MULTICAST(ntohl(address.s_addr))) {
+    Fail(url.text, "is of '" + group + "', no multicast group (224.0.0.0 to 239.255.255.255)");
+  }
+  // LCM would take any that is free, which nobody else has.
+  if (colon == std::string::npos) Fail(url.text, "has no port; write e.g. " + group + ":7667");
 }
 
 void RequireUdpmOptions(const Url& url) {
-  RequireGroup(url);
+  for (const auto& [key, value] : Parameters(url.text)) {
+    if (std::find(kUdpmKeys.begin(), kUdpmKeys.end(), key) != kUdpmKeys.end()) continue;
+    Fail(url.text, "has the unknown key '" + key + "'; known are ttl and recv_buf_size");
+  }
   const std::string ttl = url.option("ttl");
   if (!ttl.empty()) RequireInRange(url, "ttl", ttl, 0, 255);
   const std::string buffer = url.option("recv_buf_size");
@@ -69,27 +102,26 @@ void RequireUdpmOptions(const Url& url) {
 Url TakeApart(const std::string& text) {
   const auto separator = text.find("://");
   if (separator == std::string::npos) {
-    throw BusError("LCM URL '" + text +
-                   "' has no provider; write e.g. udpm://239.255.76.67:7667?ttl=0 or memq://");
+    Fail(text, "has no provider; write e.g. udpm://239.255.76.67:7667?ttl=0 or memq://");
   }
   Url url;
   url.text = text;
   url.provider = text.substr(0, separator);
   url.network = text.substr(separator + 3, text.find('?') - separator - 3);
-  RequireKeysOnceWithValues(text);
+  RequireKeysOnce(text);
   if (url.provider == "udpm" || url.provider == "tcpq") RequirePort(url);
-  if (url.provider == "udpm") RequireUdpmOptions(url);
+  if (url.provider == "udpm") {
+    RequireGroup(url);
+    RequireUdpmOptions(url);
+  }
   return url;
 }
 
 }  // namespace
 
 std::string Url::option(const std::string& key) const {
-  for (auto at = text.find('?'); at != std::string::npos; at = text.find('&', at + 1)) {
-    if (text.compare(at + 1, key.size() + 1, key + "=") == 0) {
-      const auto begin = at + key.size() + 2;
-      return text.substr(begin, text.find('&', begin) - begin);
-    }
+  for (const Parameter& parameter : Parameters(text)) {
+    if (parameter.key == key) return parameter.value;
   }
   return "";
 }

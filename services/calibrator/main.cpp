@@ -1,8 +1,8 @@
 // Calibrates one camera, or two, from pictures of a board. See README.md.
 #include <csignal>
 #include <iostream>
-#include <opencv2/core/utils/logger.hpp>
 
+#include "common/capture/quiet_opencv.h"
 #include "common/program/command_line.h"
 #include "services/calibrator/session.h"
 
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
   const auto [arguments, exit_code] = ParseArguments(argc, argv);
   if (exit_code) return *exit_code;
   StopOnSignals();
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  deixis::capture::KeepOpenCvQuiet();
   try {
     return Run(
         arguments, [] { return stop_requested != 0; }, std::cout);

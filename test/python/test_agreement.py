@@ -11,6 +11,7 @@ import pytest
 
 from deixis_frontend import __version__, lcm_url
 from deixis_frontend.cli import COMMANDS, main
+from deixis_frontend.errors import UserError
 from deixis_frontend.listening import rates
 from deixis_lcm import decoding
 
@@ -32,6 +33,20 @@ def test_all_ask_for_the_same_receive_buffer_and_the_kernel_is_set_to_allow_it(
     limits = (found(repository / "scripts/setup", r"\nreceive_buffer_bytes=(\d+)"),
               found(repository / "common/transport/bus.cpp", r"net\.core\.rmem_max=(\d+)"))
     assert [int(limit) for limit in limits] == [lcm_url.RECEIVE_BUFFER_BYTES] * 2
+
+
+def test_urls_are_taken_or_refused_as_the_services_do(repository: Path) -> None:
+    table = repository / "test/common/transport/lcm_urls.txt"
+    rows = [line.split() for line in table.read_text(encoding="ascii").splitlines()]
+    assert [url for verdict, url in rows if verdict != _verdict(url)] == []
+
+
+def _verdict(url: str) -> str:
+    try:
+        lcm_url.parse(url)
+    except UserError:
+        return "refuses"
+    return "takes"
 
 
 def test_gaps_are_counted_as_the_services_count_them(repository: Path) -> None:

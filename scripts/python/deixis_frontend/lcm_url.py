@@ -79,8 +79,8 @@ def parse(text: str) -> LcmUrl:
     _check_keys_once(text, url)
     if provider == "udpm":
         _check_udpm(text, url)
-    if provider == "tcpq":
-        _check_port(text, network.partition(":")[2] or TCP_PORT)
+    if provider == "tcpq" and ":" in network:
+        _check_port(text, network.partition(":")[2])
     return url
 
 
@@ -205,7 +205,7 @@ def _whole(text: str) -> int:
 
 def _is_multicast(host: str) -> bool:
     try:
-        return 224 <= socket.inet_aton(host)[0] <= 239 and host.count(".") == 3
+        return 224 <= socket.inet_pton(socket.AF_INET, host)[0] <= 239
     except OSError:
         return False
 

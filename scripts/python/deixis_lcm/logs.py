@@ -25,27 +25,55 @@ def read(path, channels=None):
     if not os.path.isfile(path):
         raise FileNotFoundError(f"no log file {path}")
     types = types_by_fingerprint()
-    count = undecodable = 0
-    reason = ""
+    tally = _Tally()
     with EventReader(path) as events:
         for event in events:
-            count += 1
+            tally.events += 1
             if channels is not None and event.channel not in channels:
                 continue
-            try:
-                data = events.data(event)
-                message = decode(data, types)
-            except ValueError as error:
-                undecodable += 1
-                reason = f"{event.channel} at {event.time_us} us: {error}"
-                continue
-            yield event.time_us, event.channel, data if message is None else message
-        if count == 0 and events.damaged_bytes:
+            record = _record(event, events, types, tally)
+            if record is not None:
+                yield record
+        if tally.events == 0 and events.damaged_bytes:
             raise ValueError(f"{path} is no LCM log: no event begins in it")
-        if undecodable:
-            warnings.warn(f"{path}: {undecodable} messages do not decode, the last: {reason}", stacklevel=2)
-        if events.damage():
-            warnings.warn(f"{path}: {count} messages were read; {events.damage()}", stacklevel=2)
+        for what in tally.undecodable(), tally.damage(events):
+            if what:
+                warnings.warn(f"{path}: {what}", stacklevel=2)
+
+
+class _Tally:
+    """What was read of a log, and what was passed over."""
+
+    def __init__(self):
+        self.events = 0
+        self._undecodable = 0
+        self._last_reason = ""
+
+    def pass_over(self, event, reason):
+        """Counts a message that does not decode."""
+        self._undecodable += 1
+        self._last_reason = f"{event.channel} at {event.time_us} us: {reason}"
+
+    def undecodable(self):
+        """In words; nothing when all decoded."""
+        if not self._undecodable:
+            return ""
+        return f"{self._undecodable} messages do not decode, the last: {self._last_reason}"
+
+    def damage(self, events):
+        """In words; nothing when the file is whole."""
+        return f"{self.events} messages were read; {events.damage()}" if events.damage() else ""
+
+
+def _record(event, events, types, tally):
+    """(log_time_us, channel, message); None when it does not decode."""
+    try:
+        data = events.data(event)
+        message = decode(data, types)
+    except ValueError as error:
+        tally.pass_over(event, error)
+        return None
+    return event.time_us, event.channel, data if message is None else message
 
 
 class Writer:

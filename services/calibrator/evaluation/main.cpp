@@ -2,9 +2,9 @@
 // the pairs that it was fitted to and on pairs that it was not. Writes CSV.
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "common/capture/quiet_opencv.h"
 #include "common/program/command_line.h"
 #include "services/calibrator/core/calibration.h"
 #include "services/calibrator/core/figures.h"
@@ -164,7 +164,7 @@ void Evaluate(const std::vector<Scene>& scenes, Procedure procedure, const Board
 }
 
 void Run(const Options& options) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  capture::KeepOpenCvQuiet();
   BoardConfig config;
   config.count = {options.count[0], options.count[1]};
   config.square_m = options.square_m;

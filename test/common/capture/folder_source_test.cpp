@@ -1,6 +1,7 @@
 #include "common/capture/folder_source.h"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -79,6 +80,18 @@ TEST_F(FolderSourceTest, PassesOverLinksThatLeadInACircle) {
   AddPicture("1.png", 10);
   FolderSource source(Config(10.0));
   EXPECT_THAT(Greys(source), ElementsAre(10));
+}
+
+TEST_F(FolderSourceTest, NamesAFolderThatCannotBeRead) {
+  AddPicture("1.png", 10);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{0, before.rlim_max};  // Rights would keep out no root.
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  EXPECT_THAT([this] { FolderSource source(Config(10.0)); },
+              ThrowsMessage<config::ConfigError>(
+                  testing::AllOf(HasSubstr(folder_.path().string()), HasSubstr("cannot be read"))));
+  setrlimit(RLIMIT_NOFILE, &before);
 }
 
 TEST_F(FolderSourceTest, KeepsTheTimesOfItsTable) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "common/transport/bus.h"
 #include "common/transport/channel_name.h"
@@ -79,7 +80,7 @@ TEST(Url, WithNumbersThatLcmWouldMisreadNamesThem) {
                 testing::ThrowsMessage<BusError>(HasSubstr("recv_buf_size must")))
         << size;
   }
-  EXPECT_NO_THROW(resolving("")());
+  EXPECT_THAT(resolving(""), testing::ThrowsMessage<BusError>(HasSubstr("has no port")));
   EXPECT_NO_THROW(resolving(":65535?ttl=255&recv_buf_size=2147483647")());
 }
 
@@ -96,7 +97,7 @@ TEST(Url, OfUdpmNeedsAMulticastGroup) {
   for (const std::string text :
        {"udpm://10.0.0.1:7691", "udpm://localhost:7667", "udpm://240.0.0.1", "udpm://:7667"}) {
     EXPECT_THAT([&] { ResolveUrl(text, 1000); },
-                testing::ThrowsMessage<BusError>(testing::HasSubstr("is no multicast group")))
+                testing::ThrowsMessage<BusError>(testing::HasSubstr("no multicast group")))
         << text;
   }
   EXPECT_NO_THROW(ResolveUrl("udpm://", 1000));
@@ -106,6 +107,19 @@ TEST(Url, OfTcpqNeedsAPortToo) {
   EXPECT_THAT([] { ResolveUrl("tcpq://127.0.0.1:99999", 1000); },
               testing::ThrowsMessage<BusError>(testing::HasSubstr("the port must be")));
   EXPECT_NO_THROW(ResolveUrl("tcpq://127.0.0.1:7700", 1000));
+}
+
+TEST(Url, IsTakenOrRefusedAsTheFrontEndDoes) {
+  std::ifstream table(DEIXIS_SOURCE_DIR "/test/common/transport/lcm_urls.txt");
+  int urls = 0;
+  for (std::string verdict, url; table >> verdict >> url; ++urls) {
+    if (verdict == "takes") {
+      EXPECT_NO_THROW(ResolveUrl(url, 1000)) << url;
+    } else {
+      EXPECT_THROW(ResolveUrl(url, 1000), BusError) << url;
+    }
+  }
+  EXPECT_GT(urls, 20);
 }
 
 TEST(Url, OfAnUnknownProviderIsAnErrorWhenOpened) {

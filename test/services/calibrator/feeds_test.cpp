@@ -100,6 +100,11 @@ TEST_F(CalibratorFeeds, APictureOfTwoCamerasIsCutInTwo) {
   EXPECT_EQ(sight->bgr[1].at<cv::Vec3b>(0, 0)[0], 200);
 }
 
+TEST_F(CalibratorFeeds, AFolderThatCannotBeLookedAtHasNoTimes) {
+  const auto config = ParseSource("folder:" + std::string(300, 'x'), "--source");
+  EXPECT_EQ(KindOf({config}), FeedKind::kSeparate);
+}
+
 /// Two folders of pictures, those of the right camera lighter by 100 grey levels.
 class CalibratorTwoSourceFeed : public CalibratorFeeds {
  protected:

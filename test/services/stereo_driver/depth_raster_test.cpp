@@ -80,6 +80,15 @@ TEST_F(DepthRasterTest, FillsNothingWithWhatIsNoArea) {
   EXPECT_EQ(Filled(), 0);
 }
 
+TEST_F(DepthRasterTest, LeavesOutWhatLiesBehindTheCamera) {
+  raster_.Fill(Square(2.0F, 2.0F, 3.0F, -1000.0F));
+  raster_.Fill(Square(8.0F, 2.0F, 3.0F, -1e9F));
+  EXPECT_EQ(Filled(), 0);
+  raster_.Fill({{{0, 10, -50}, {10, 10, 50}, {0, 14, -50}, {10, 14, 50}}});
+  EXPECT_EQ(At(2, 12), 0);
+  EXPECT_EQ(At(8, 12), 30);
+}
+
 TEST(SpanOf, IsEmptyWhereACornerIsNotFinite) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinite = std::numeric_limits<float>::infinity();

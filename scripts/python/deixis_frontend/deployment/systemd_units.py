@@ -61,29 +61,22 @@ class Installation:
 
 def supervisor_unit(installation: Installation) -> str:
     """The unit that runs `deixis start --foreground`."""
-    system = installation.system
-    command = [str(installation.launcher), "start", "--foreground", "--system",
-               str(system.path.resolve()), *installation.names]
-    entries = system.services.values()
-    start_s = sum(e.ready_within_s * e.give_up_after for e in entries) + _EXTRA_S
-    stop_s = max(e.stop_within_s for e in entries) + _EXTRA_S
     return f"""\
 {MARK} {installation.unit}
 [Unit]
-Description=Deixis people perception, system {system.name}
+Description=Deixis people perception, system {installation.system.name}
 {_ordering(installation)}\
 StartLimitIntervalSec=0
 
 [Service]
 Type=notify
 EnvironmentFile=-{_escaped(str(installation.environment_file))}
-ExecStart={" ".join(map(_word, command))}
+ExecStart={" ".join(map(_word, _start_command(installation)))}
 Restart=on-failure
 RestartSec=5
 # The supervisor ends its services itself; what is left after that is killed.
 KillMode=mixed
-TimeoutStartSec={start_s:.0f}
-TimeoutStopSec={stop_s:.0f}
+{_time_limits(installation.system)}\
 NoNewPrivileges=yes
 LockPersonality=yes
 RestrictSUIDSGID=yes
@@ -95,14 +88,8 @@ WantedBy={"multi-user.target" if installation.run_as else "default.target"}
 
 def bus_unit(installation: Installation) -> str:
     """The unit that lets messages loop back and pictures fit into receive buffers."""
-    limit = "/proc/sys/net/core/rmem_max"
-    size = RECEIVE_BUFFER_BYTES
-    buffer = f"[ $$(cat {limit}) -ge {size} ] || echo {size} >{limit}"
-    group = installation.url.group if installation.url.provider == "udpm" else GROUP
-    route = (f"ip route get {group} >/dev/null 2>&1 ||"
-             " (ip link set lo up && ip route add 224.0.0.0/4 dev lo)")
-    commands = [buffer] if installation.leaves_host else [buffer, route]
-    lines = "\n".join(f"ExecStart=/bin/sh -c '{command}'" for command in commands)
+    lines = "\n".join(f"ExecStart=/bin/sh -c '{command}'"
+                      for command in _bus_commands(installation))
     return f"""\
 {MARK} {installation.bus_unit}
 [Unit]
@@ -130,6 +117,30 @@ def environment_text(installation: Installation) -> str:
              _assignment("LCM_DEFAULT_URL", str(installation.url))]
     lines += [_assignment(name, value) for name, value in installation.environment.items()]
     return "\n".join(lines) + "\n"
+
+
+def _start_command(installation: Installation) -> list[str]:
+    return [str(installation.launcher), "start", "--foreground", "--system",
+            str(installation.system.path.resolve()), *installation.names]
+
+
+def _time_limits(system: System) -> str:
+    entries = system.services.values()
+    start_s = sum(e.ready_within_s * e.give_up_after for e in entries) + _EXTRA_S
+    stop_s = max(e.stop_within_s for e in entries) + _EXTRA_S
+    return f"TimeoutStartSec={start_s:.0f}\nTimeoutStopSec={stop_s:.0f}\n"
+
+
+def _bus_commands(installation: Installation) -> list[str]:
+    """Shell commands of root; `$$` is what systemd makes a `$` of."""
+    limit = "/proc/sys/net/core/rmem_max"
+    size = RECEIVE_BUFFER_BYTES
+    buffer = f"[ $$(cat {limit}) -ge {size} ] || echo {size} >{limit}"
+    if installation.leaves_host:
+        return [buffer]
+    group = installation.url.group if installation.url.provider == "udpm" else GROUP
+    return [buffer, f"ip route get {group} >/dev/null 2>&1 ||"
+                    " (ip link set lo up && ip route add 224.0.0.0/4 dev lo)"]
 
 
 def _ordering(installation: Installation) -> str:

@@ -39,7 +39,10 @@ class Converter:
         self._published: set[str] = set()  # channels that services say are theirs
         self._filled: set[str] = set()  # channels whose scene is not empty
         self._states: dict[tuple[Any, ...], tuple[int, str]] = {}
-        self._by_type: dict[type, Callable[[str, Any], Converted]] = {
+        self._by_type = self._converters()
+
+    def _converters(self) -> dict[type, Callable[[str, Any], Converted]]:
+        return {
             bot_core.image_t: self._image,
             bot_core.images_t: self._images,
             bot_core.rigid_transform_t: self._camera_pose,
