@@ -1,0 +1,112 @@
+// The joints of the shipped body models.
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "common/body_model/joint_angles.h"
+#include "common/range_of_motion/range_of_motion.h"
+#include "test/common/range_of_motion/range_samples.h"
+
+namespace deixis::range_of_motion {
+namespace {
+
+using body_model::BodyModel;
+using body_model::BodyPose;
+using body_model::Kinematics;
+using Eigen::Vector3d;
+
+std::vector<std::string> NamesOf(const std::string& model) {
+  const BodyModel body = ShippedBody(model);
+  const RangeOfMotion ranges(body, ShippedRanges(), ShippedRows());
+  std::vector<std::string> names;
+  for (const ModelJoint& joint : ranges.joints()) names.push_back(joint.Name());
+  return names;
+}
+
+TEST(ShippedRanges, AreThoseOfTheJointsThatAModelHas) {
+  using testing::UnorderedElementsAre;
+  EXPECT_THAT(NamesOf("whole_body_detailed"),
+              UnorderedElementsAre("thoracolumbar_spine", "cervical_spine", "right_shoulder",
+                                   "left_shoulder", "right_elbow", "left_elbow", "right_wrist",
+                                   "left_wrist", "right_hip", "left_hip", "right_knee", "left_knee",
+                                   "right_ankle", "left_ankle"));
+  EXPECT_THAT(NamesOf("upper_body"),
+              UnorderedElementsAre("cervical_spine", "right_shoulder", "left_shoulder",
+                                   "right_elbow", "left_elbow"));
+}
+
+/// A pose with one angle of one limb set, degrees; arms and legs hang otherwise.
+class Posed {
+ public:
+  explicit Posed(const std::string& model)
+      : body_(ShippedBody(model)),
+        ranges_(body_, ShippedRanges(), ShippedRows()),
+        pose_(RestPose(body_)) {
+    for (const char* limb : {"right_upper_arm", "left_upper_arm", "right_thigh", "left_thigh"}) {
+      if (const auto found = body_.Find(limb)) {
+        PointLimb(body_, *found, -Vector3d::UnitZ(), pose_);
+      }
+    }
+  }
+  void Turn(const std::string& limb, int dof, double degrees) {
+    pose_.angles_rad[body_.first_angle(*body_.Find(limb)) + dof] += degrees * kDegree;
+  }
+  AnatomicalAngles Degrees(const std::string& joint) const {
+    Kinematics kinematics(body_);
+    kinematics.Update(pose_);
+    for (const ModelJoint& each : ranges_.joints()) {
+      if (each.Name() == joint) return ranges_.Measure(kinematics, each) / kDegree;
+    }
+    throw std::logic_error("no joint " + joint);
+  }
+
+ private:
+  BodyModel body_;
+  RangeOfMotion ranges_;
+  BodyPose pose_;
+};
+
+TEST(ShippedRanges, AreMeasuredFromTheStandingBody) {
+  const Posed standing("whole_body_detailed");
+  for (const char* joint : {"right_shoulder", "left_shoulder", "right_hip", "left_hip",
+                            "right_knee", "right_elbow", "left_wrist", "right_ankle"}) {
+    const AnatomicalAngles angles = standing.Degrees(joint);
+    EXPECT_NEAR(angles[0], 0.0, 1e-5) << joint;
+    // Swings of an oblique rest turn a hanging limb about itself.
+    EXPECT_NEAR(angles[2], 0.0, 20.0) << joint;
+  }
+}
+
+TEST(ShippedRanges, SumTheLimbsThatMakeAJointTogether) {
+  Posed bent("whole_body_detailed");
+  bent.Turn("abdomen", 1, 20.0);
+  bent.Turn("chest", 1, 25.0);
+  EXPECT_NEAR(bent.Degrees("thoracolumbar_spine")[0], 45.0, 1e-6);
+  bent.Turn("neck", 2, 15.0);
+  bent.Turn("head", 2, 10.0);
+  EXPECT_GT(bent.Degrees("cervical_spine")[2], 20.0);
+}
+
+TEST(ShippedRanges, CountTheClavicleToTheShoulder) {
+  Posed raised("whole_body_detailed");
+  raised.Turn("right_clavicle", 0, 30.0);
+  EXPECT_NEAR(raised.Degrees("right_shoulder")[0], 30.0, 0.5);
+  EXPECT_NEAR(raised.Degrees("left_shoulder")[0], 0.0, 1e-5);
+}
+
+TEST(ShippedRanges, GiveEachMotionItsSign) {
+  Posed moved("whole_body_detailed");
+  moved.Turn("right_lower_arm", 0, 70.0);
+  moved.Turn("left_lower_arm", 1, 40.0);
+  moved.Turn("right_shank", 0, 60.0);
+  moved.Turn("left_foot", 0, 10.0);
+  moved.Turn("right_hand", 0, 30.0);
+  EXPECT_NEAR(moved.Degrees("right_elbow")[0], 70.0, 1e-6);
+  EXPECT_NEAR(moved.Degrees("left_elbow")[1], 40.0, 1e-6);
+  EXPECT_NEAR(moved.Degrees("right_knee")[0], 60.0, 1e-6);
+  EXPECT_NEAR(moved.Degrees("left_ankle")[0], 10.0, 1e-6);
+  EXPECT_NEAR(moved.Degrees("right_wrist")[0], 30.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace deixis::range_of_motion
