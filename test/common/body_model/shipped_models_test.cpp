@@ -25,20 +25,6 @@ BodyModel Shipped(const std::string& name, Sex sex, double stature_m) {
                SizesOf(populations, sex, stature_m));
 }
 
-/// Upright, arms hanging, feet on the floor.
-BodyPose Standing(const BodyModel& model) {
-  BodyPose pose = RestPose(model);
-  for (const char* side : {"right_", "left_"}) {
-    if (const auto arm = model.Find(side + std::string("upper_arm"))) {
-      PointLimb(model, *arm, -Vector3d::UnitZ(), pose);
-    }
-    if (const auto leg = model.Find(side + std::string("thigh"))) {
-      PointLimb(model, *leg, -Vector3d::UnitZ(), pose);
-    }
-  }
-  return pose;
-}
-
 struct Person {
   Sex sex;
   double stature_m;
