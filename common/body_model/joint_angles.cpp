@@ -75,4 +75,12 @@ void PointLimb(const BodyModel& model, int limb, const Vector3d& direction, Body
       JointAngles(moved, parent_from_limb);
 }
 
+BodyPose Standing(const BodyModel& model) {
+  BodyPose pose = RestPose(model);
+  for (const char* name : {"right_upper_arm", "left_upper_arm", "right_thigh", "left_thigh"}) {
+    if (const auto limb = model.Find(name)) PointLimb(model, *limb, -Vector3d::UnitZ(), pose);
+  }
+  return pose;
+}
+
 }  // namespace deixis::body_model

@@ -15,4 +15,7 @@ Eigen::VectorXd JointAngles(const Limb& limb, const Eigen::Matrix3d& parent_from
 /// length; its twist becomes 0. Angles of other limbs stay.
 void PointLimb(const BodyModel& model, int limb, const Eigen::Vector3d& direction, BodyPose& pose);
 
+/// Upright: all angles at rest, but upper arms and thighs hang, where the model has them.
+BodyPose Standing(const BodyModel& model);
+
 }  // namespace deixis::body_model

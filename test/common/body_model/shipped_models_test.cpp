@@ -25,20 +25,6 @@ BodyModel Shipped(const std::string& name, Sex sex, double stature_m) {
                SizesOf(populations, sex, stature_m));
 }
 
-/// Upright, arms hanging, feet on the floor.
-BodyPose Standing(const BodyModel& model) {
-  BodyPose pose = RestPose(model);
-  for (const char* side : {"right_", "left_"}) {
-    if (const auto arm = model.Find(side + std::string("upper_arm"))) {
-      PointLimb(model, *arm, -Vector3d::UnitZ(), pose);
-    }
-    if (const auto leg = model.Find(side + std::string("thigh"))) {
-      PointLimb(model, *leg, -Vector3d::UnitZ(), pose);
-    }
-  }
-  return pose;
-}
-
 struct Person {
   Sex sex;
   double stature_m;
@@ -55,6 +41,17 @@ TEST_P(ShippedModels, HaveTheLimbsAndAnglesOfTheirSources) {
   EXPECT_EQ(6 + arm.angle_count(), 10);
   EXPECT_TRUE(arm.limbs()[static_cast<std::size_t>(*arm.Find("right_hand"))].dofs.empty());
   EXPECT_TRUE(arm.limbs()[static_cast<std::size_t>(*arm.Find("head"))].dofs.empty());
+}
+
+TEST_P(ShippedModels, StandUprightWithHangingArms) {
+  const auto [sex, stature_m] = GetParam();
+  const BodyModel model = Shipped("whole_body_detailed", sex, stature_m);
+  Kinematics kinematics(model);
+  kinematics.Update(Standing(model));
+  for (const char* limb : {"right_upper_arm", "left_lower_arm", "right_thigh", "left_shank"}) {
+    const Vector3d along = kinematics.limb(*model.Find(limb)).linear().col(2);
+    EXPECT_LE((along + Vector3d::UnitZ()).norm(), 1e-9) << limb;
+  }
 }
 
 TEST_P(ShippedModels, AreAsTallAsThePerson) {
