@@ -43,6 +43,17 @@ TEST_P(ShippedModels, HaveTheLimbsAndAnglesOfTheirSources) {
   EXPECT_TRUE(arm.limbs()[static_cast<std::size_t>(*arm.Find("head"))].dofs.empty());
 }
 
+TEST_P(ShippedModels, StandUprightWithHangingArms) {
+  const auto [sex, stature_m] = GetParam();
+  const BodyModel model = Shipped("whole_body_detailed", sex, stature_m);
+  Kinematics kinematics(model);
+  kinematics.Update(Standing(model));
+  for (const char* limb : {"right_upper_arm", "left_lower_arm", "right_thigh", "left_shank"}) {
+    const Vector3d along = kinematics.limb(*model.Find(limb)).linear().col(2);
+    EXPECT_LE((along + Vector3d::UnitZ()).norm(), 1e-9) << limb;
+  }
+}
+
 TEST_P(ShippedModels, AreAsTallAsThePerson) {
   const auto [sex, stature_m] = GetParam();
   const BodyModel model = Shipped("whole_body_detailed", sex, stature_m);
