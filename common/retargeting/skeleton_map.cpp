@@ -81,6 +81,20 @@ SkeletonMap LoadSkeletonMap(const std::filesystem::path& path) {
   return config::Load<SkeletonMap>(path);
 }
 
+std::vector<SkeletonMap> LoadSkeletonMaps(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code fault;
+  for (std::filesystem::directory_iterator at(folder, fault), end; at != end; at.increment(fault)) {
+    if (at->path().extension() == ".yaml") files.push_back(at->path());
+  }
+  if (fault) throw config::ConfigError(folder.string() + ": " + fault.message());
+  if (files.empty()) throw config::ConfigError(folder.string() + ": holds no maps of skeletons");
+  std::sort(files.begin(), files.end());
+  std::vector<SkeletonMap> maps;
+  for (const std::filesystem::path& file : files) maps.push_back(LoadSkeletonMap(file));
+  return maps;
+}
+
 std::vector<DrivenLimb> Bind(const SkeletonMap& map, const motion::Skeleton& skeleton) {
   std::vector<DrivenLimb> limbs;
   const auto add = [&](const LimbSource& source, const char* prefix, const std::string& side) {

@@ -68,6 +68,9 @@ struct SkeletonMap {
 /// Reads a file of config/skeletons. Throws ConfigError naming file, line and key.
 SkeletonMap LoadSkeletonMap(const std::filesystem::path& path);
 
+/// All files *.yaml of a folder, by name. Throws ConfigError, also when there are none.
+std::vector<SkeletonMap> LoadSkeletonMaps(const std::filesystem::path& folder);
+
 /// One limb of a model and the joints of a skeleton, -1 = none.
 struct DrivenLimb {
   std::string limb;  ///< With its side.
