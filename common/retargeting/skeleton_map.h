@@ -11,7 +11,7 @@ namespace deixis::retargeting {
 /// How a limb stands in the zero pose of a file.
 enum class Stance {
   kBone,    ///< Along its bone, its front where the person's is.
-  kNeutral  ///< As the model's limb when that stands: trunk, head, feet.
+  kNeutral  ///< As the model's standing limb does on its parent: trunk, head, feet.
 };
 
 enum class Sides { kOnce, kBoth };

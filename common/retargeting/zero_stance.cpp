@@ -17,6 +17,7 @@ using Eigen::Vector3d;
 
 /// Axes within this angle of a file's own are the file's.
 constexpr double kSnapCosine = 0.94;
+constexpr double kShortest_m = 1e-6;
 
 std::optional<Vector3d> StartOf(const JointPaths& paths, const std::vector<DrivenLimb>& limbs,
                                 const std::string& name) {
@@ -61,11 +62,11 @@ Matrix3d BodyFromFile(const JointPaths& paths, const std::vector<DrivenLimb>& li
   const auto pair = hips ? hips : shoulders;
   if (!pair) Fail("it has no pair of hips or shoulders");
   const Vector3d width = pair->left_m - pair->right_m;
-  if (!(width.norm() > 1e-6)) Fail("its hips or shoulders lie in one place");
+  if (!(width.norm() > kShortest_m)) Fail("its hips or shoulders lie in one place");
   const Vector3d left = Snapped(width);
   const Vector3d rise = *top - pair->Middle();
   const Vector3d across = rise - rise.dot(left) * left;
-  if (!(across.norm() > 1e-6)) Fail("its head does not lie above");
+  if (!(across.norm() > kShortest_m)) Fail("its head does not lie above");
   const Vector3d snapped = Snapped(across);
   const Vector3d up = (snapped - snapped.dot(left) * left).normalized();
   Matrix3d body_from_file;
@@ -73,6 +74,12 @@ Matrix3d BodyFromFile(const JointPaths& paths, const std::vector<DrivenLimb>& li
   body_from_file.row(1) = left;
   body_from_file.row(2) = up;
   return body_from_file;
+}
+
+/// Of a limb that stands along its bone; zero of others.
+Vector3d BoneOf(const JointPaths& paths, const DrivenLimb& limb) {
+  if (limb.stance != Stance::kBone || !paths.HasEnd(limb)) return Vector3d::Zero();
+  return paths.End_m(limb) - paths.Start_m(limb);
 }
 
 Matrix3d AlongBone(const Vector3d& bone) {
@@ -96,17 +103,22 @@ ZeroStance FindZeroStance(const motion::Skeleton& skeleton, const std::vector<Dr
   const JointPaths paths(still, body_from_file);
   body_model::Kinematics standing(model);
   standing.Update(body_model::Standing(model));
-  ZeroStance stance{body_from_file, {}};
-  for (const DrivenLimb& limb : limbs) {
-    const auto in_model = model.Find(limb.limb);
-    const bool is_bone = limb.stance == Stance::kBone && paths.HasEnd(limb);
-    const Vector3d bone =
-        is_bone ? Vector3d(paths.End_m(limb) - paths.Start_m(limb)) : Vector3d::Zero().eval();
-    if (bone.norm() > 1e-6) {
-      stance.frames.push_back(AlongBone(bone));
-    } else {
-      stance.frames.push_back(in_model ? standing.limb(*in_model).linear()
-                                       : Matrix3d::Identity().eval());
+  ZeroStance stance{body_from_file, std::vector<Matrix3d>(limbs.size(), Matrix3d::Identity())};
+  std::vector<Matrix3d> in_file(model.limbs().size());
+  for (int i = 0; i < model.limb_count(); ++i) {
+    Matrix3d& frame = in_file[static_cast<std::size_t>(i)];
+    const body_model::Limb& limb = model.limbs()[static_cast<std::size_t>(i)];
+    // Feet of spread legs stand on their shanks, not on the floor.
+    frame = standing.limb(i).linear();
+    if (limb.parent >= 0) {
+      frame = in_file[static_cast<std::size_t>(limb.parent)] *
+              standing.limb(limb.parent).linear().transpose() * frame;
+    }
+    for (std::size_t k = 0; k < limbs.size(); ++k) {
+      if (limbs[k].limb != limb.name) continue;
+      const Vector3d bone = BoneOf(paths, limbs[k]);
+      if (bone.norm() > kShortest_m) frame = AlongBone(bone);
+      stance.frames[k] = frame;
     }
   }
   return stance;
