@@ -46,7 +46,9 @@ struct GlossaryFile {
   }
 };
 
-std::string WithoutBrackets(const std::string& text) { return text.substr(0, text.find(" (")); }
+std::string WithoutBrackets(const std::string& text) {
+  return !text.empty() && text.back() == ')' ? text.substr(0, text.find(" (")) : text;
+}
 
 Names WithoutBrackets(const Names& names) {
   return {WithoutBrackets(names.english), WithoutBrackets(names.german),

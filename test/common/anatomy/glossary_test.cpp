@@ -66,6 +66,22 @@ TEST(Glossary, FindsATermByItsNameInAnyLanguage) {
   EXPECT_TRUE(Shipped().Find("").empty());
 }
 
+TEST(Glossary, FindsUmlautsInCapitals) {
+  EXPECT_EQ(Shipped().Find("WIRBELSÄULE").size(), 1u);
+  EXPECT_EQ(Shipped().Find("ÄUßERES KEILBEIN").size(), 1u);
+}
+
+TEST(Glossary, FindsTermsWithAndWithoutTheirBrackets) {
+  EXPECT_EQ(Shipped().Find("Träger").size(), 1u);
+  EXPECT_EQ(Shipped().Find("Träger (erster Halswirbel)").size(), 1u);
+}
+
+TEST(Glossary, FindsNothingForAnUnknownTermOrPartOfOne) {
+  for (const char* name : {"tentacle", "Hume", "humerus ", "(bone)", ")"}) {
+    EXPECT_TRUE(Shipped().Find(name).empty()) << name;
+  }
+}
+
 TEST(Glossary, GivesAllThatBearOneName) {
   EXPECT_EQ(Shipped().Find("neck").size(), 2u);
   EXPECT_EQ(Shipped().Find("Speiche").size(), 1u);
