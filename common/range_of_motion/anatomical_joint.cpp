@@ -168,6 +168,15 @@ double AnatomicalJoint::FlexionOf(const AnatomicalAngles& angles) const {
   return reach_.empty() ? angles[0] : 0.0;
 }
 
+AnatomicalJoint::Rotation AnatomicalJoint::RotationOf(const AnatomicalAngles& angles,
+                                                      Load load) const {
+  if (bounds_.empty()) return {};
+  const auto last = static_cast<Eigen::Index>(angle_names_.size()) - 1;
+  const double flexion_rad = FlexionOf(angles);
+  return {angles[last], -bounds_.back()[1].At(flexion_rad, load).high_rad,
+          bounds_.back()[0].At(flexion_rad, load).high_rad};
+}
+
 Margins AnatomicalJoint::Check(const AnatomicalAngles& angles, Load load) const {
   Margins margins;
   const auto add = [&margins](const Margin& margin) {

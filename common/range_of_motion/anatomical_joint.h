@@ -60,7 +60,13 @@ class AnatomicalJoint {
   AnatomicalAngles Measure(const Eigen::Matrix3d& parent_from_limb) const;
   /// The orientation with these angles: the inverse of Measure.
   Eigen::Matrix3d Orientation(const AnatomicalAngles& angles) const;
-  /// One margin per bounded angle; a reach cone has one for both.
+  /// The last angle, about the limb itself, and between what it may turn.
+  struct Rotation {
+    double angle_rad = 0.0, least_rad = 0.0, most_rad = 0.0;
+  };
+  Rotation RotationOf(const AnatomicalAngles& angles, Load load = Load::kUnknown) const;
+  /// One margin per bounded angle, that of the rotation about the limb last; a reach cone has one
+  /// for both of its angles.
   Margins Check(const AnatomicalAngles& angles, Load load = Load::kUnknown) const;
 
  private:

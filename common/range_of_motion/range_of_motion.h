@@ -15,9 +15,19 @@ struct ModelJoint {
   AnatomicalJoint joint;
   int parent = 0;  ///< Limb that the first one hangs on.
   int limb = 0;    ///< The last one: its orientation in the parent is the joint's.
+  /// Index of the joint above that it shares its rotation with while it is bent less than
+  /// `shares_below_rad`; -1 = none.
+  int shares_with = -1;
+  double shares_below_rad = 0.0;
 
   /// right_hip, left_hip, cervical_spine ...
   std::string Name() const;
+};
+
+/// One joint in one pose.
+struct JointState {
+  AnatomicalAngles angles = AnatomicalAngles::Zero();
+  Margins margins;
 };
 
 /// The anatomical joints of one body model: those of the plan whose limbs it has, found by name.
@@ -31,8 +41,14 @@ class RangeOfMotion {
   const std::vector<ModelJoint>& joints() const { return joints_; }
   /// Its angles in a pose.
   AnatomicalAngles Measure(const body_model::Kinematics& kinematics, const ModelJoint& joint) const;
+  /// Angles and margins of all joints in a pose, in their order. Where a joint shares its rotation
+  /// with the one above, both have the larger margin of their own and of their sum.
+  void Check(const body_model::Kinematics& kinematics, std::vector<JointState>& states,
+             Load load = Load::kUnknown) const;
 
  private:
+  void ShareRotation(std::size_t joint, std::vector<JointState>& states, Load load) const;
+
   std::vector<ModelJoint> joints_;
 };
 

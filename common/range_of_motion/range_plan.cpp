@@ -86,6 +86,8 @@ void JointPlan::Validate() const {
                  has_reach ? "must turn about z only beside a reach"
                            : "must turn about x, y, z once at most, about z last");
   faults.Require(has_reach || !angles.empty(), "angles", "must not be empty without a reach");
+  faults.Require(shares_rotation_below_deg >= 0.0 && shares_rotation_below_deg <= 45.0,
+                 "shares_rotation_below_deg", "must lie in 0..45");
   faults.ThrowIfAny();
 }
 

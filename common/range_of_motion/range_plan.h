@@ -82,6 +82,9 @@ struct JointPlan {
   ReachPlan reach;  ///< No knots: all is said by `angles`.
   std::vector<AnglePlan> angles;
   std::vector<AllowancePlan> allowed_beyond;
+  /// While it is bent less, degrees, its last angle and that of the joint above turn the limb about
+  /// nearly one axis, and are bounded by their sum only; 0 = never.
+  double shares_rotation_below_deg = 0.0;
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -92,6 +95,7 @@ struct JointPlan {
     v("reach", reach);
     v("angles", angles);
     v("allowed_beyond", allowed_beyond);
+    v("shares_rotation_below_deg", shares_rotation_below_deg);
   }
   void Validate() const;  ///< Throws FaultsFound.
 };

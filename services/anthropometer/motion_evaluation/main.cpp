@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <set>
 
 #include "common/config/config.h"
 #include "common/program/command_line.h"
@@ -17,13 +18,14 @@ namespace {
 namespace fs = std::filesystem;
 using range_of_motion::Limits;
 
-constexpr double kReserve = 1.5;
+constexpr double kReserve = 2.0;
 
 struct Arguments {
   fs::path data;
   std::string actor;
   std::string model = "whole_body_detailed";
   std::string limits = "default";
+  std::string allowances;
   double amc_rate_hz = 120.0;
   fs::path speeds;
 };
@@ -39,6 +41,8 @@ Arguments Parse(int argc, char** argv) {
   app.add_option("--model", arguments.model, "A model of config/body_models");
   app.add_option("--limits", arguments.limits, "Which limits judge: source or default")
       ->check(CLI::IsMember({"source", "default"}));
+  app.add_option("--allowances-of", arguments.allowances,
+                 "Judge by the source's limits, widened by what this person's recordings need");
   app.add_option("--amc-rate", arguments.amc_rate_hz, "Frames per second of .amc files")
       ->check(CLI::Range(1.0, 1000.0));
   app.add_option("--write-speeds", arguments.speeds,
@@ -51,34 +55,43 @@ Arguments Parse(int argc, char** argv) {
   return arguments;
 }
 
-std::vector<fs::path> FilesOf(const Arguments& arguments) {
+/// The recordings of one person; of all when `actor` is empty.
+std::vector<fs::path> FilesOf(const fs::path& data, const std::string& actor) {
   std::vector<fs::path> files;
-  std::string actors;
-  for (const fs::path& file : FindMotionFiles(arguments.data)) {
-    const std::string actor = ActorOf(file);
-    if (arguments.actor.empty() || actor == arguments.actor) files.push_back(file);
-    if (actors.find(actor) == std::string::npos) actors += (actors.empty() ? "" : ", ") + actor;
+  std::set<std::string> actors;
+  for (const fs::path& file : FindMotionFiles(data)) {
+    const std::string found = ActorOf(file);
+    if (actor.empty() || found == actor) files.push_back(file);
+    actors.insert(found);
   }
-  if (files.empty()) {
-    throw config::ConfigError("--actor " + arguments.actor + " is none of: " + actors);
-  }
-  return files;
+  if (!files.empty()) return files;
+  std::string names;
+  for (const std::string& name : actors) names += (names.empty() ? "" : ", ") + name;
+  throw config::ConfigError("'" + actor + "' is none of those recorded: " + names);
+}
+
+std::string Joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ";") + name;
+  return text;
 }
 
 void Print(const MotionScore& score) {
-  std::printf("joint,joint_frames,rejected,worst_deg,causes\n");
+  std::printf("joint,joint_frames,rejected\n");
   for (const auto& [name, joint] : score.joints) {
-    std::string causes;
-    for (const auto& [motion, count] : joint.by_motion) {
-      causes += (causes.empty() ? "" : ";") + motion + "=" + std::to_string(count);
-    }
-    std::printf("%s,%ld,%ld,%.1f,%s\n", name.c_str(), joint.joint_frames, joint.rejected,
-                joint.worst_deg, causes.c_str());
+    std::printf("%s,%ld,%ld\n", name.c_str(), joint.joint_frames, joint.rejected);
   }
-  std::printf("\nrecording,frames,joint_frames,rejected,mean_error_mm,largest_error_mm\n");
+  std::printf("faulty,%ld,%ld\n", score.faulty.joint_frames, score.faulty.rejected);
+  std::printf("\njoint,motion,rejected,worst_deg\n");
+  for (const auto& [cause, counted] : score.causes) {
+    std::printf("%s,%s,%ld,%.1f\n", cause.first.c_str(), cause.second.c_str(), counted.rejected,
+                counted.worst_deg);
+  }
+  std::printf("\nrecording,frames,joint_frames,rejected,mean_error_mm,largest_error_mm,faulty\n");
   for (const ClipScore& clip : score.clips) {
-    std::printf("%s,%ld,%ld,%ld,%.2f,%.2f\n", clip.name.c_str(), clip.frames, clip.joint_frames,
-                clip.rejected, 1000.0 * clip.mean_error_m, 1000.0 * clip.largest_error_m);
+    std::printf("%s,%ld,%ld,%ld,%.2f,%.2f,%s\n", clip.name.c_str(), clip.frames, clip.joint_frames,
+                clip.rejected, 1000.0 * clip.mean_error_m, 1000.0 * clip.largest_error_m,
+                Joined(clip.faulty).c_str());
   }
 }
 
@@ -97,7 +110,7 @@ void WriteSpeeds(const SpeedSamples& samples, const Arguments& arguments, std::s
          "values.\n"
          "# Both are those of the joint's limbs together, over 1/30 s.\n"
       << "derived_from: motion capture of one person (" << arguments.actor << "), " << files
-      << " takes; 1.5 times what all but one of 1000 samples keep to\n"
+      << " takes; twice what all but one of 1000 samples keep to\n"
       << "certainty: low. Everyday motion and quick reaches of one person; sprints, hard throws "
          "and\n"
          "  falls are faster, so what is faster is unusual, not impossible\n"
@@ -109,25 +122,39 @@ void WriteSpeeds(const SpeedSamples& samples, const Arguments& arguments, std::s
   if (!out.flush()) throw config::ConfigError(arguments.speeds.string() + ": cannot be written");
 }
 
+MotionScore ScoreOf(const std::vector<fs::path>& files, const RecordingReader& reader,
+                    const Judges& judges) {
+  MotionScore score;
+  for (const fs::path& file : files) {
+    AddClip(file.filename().string(), reader.Read(file), judges, score);
+  }
+  return score;
+}
+
+SpeedSamples SpeedsOf(const std::vector<fs::path>& files, const RecordingReader& reader,
+                      const Judges& judges) {
+  SpeedSamples speeds;
+  for (const fs::path& file : files) AddSpeeds(reader.Read(file).motion, judges, speeds);
+  return speeds;
+}
+
 void Run(const Arguments& arguments) {
   const auto rows = anatomy::JointLimits::Load(config::FindConfig("kinematics/joint_limits.yaml"));
-  const auto plan =
-      range_of_motion::LoadRangePlan(config::FindConfig("kinematics/range_of_motion.yaml"));
+  auto plan = range_of_motion::LoadRangePlan(config::FindConfig("kinematics/range_of_motion.yaml"));
   const RecordingReader reader(arguments.model, arguments.amc_rate_hz);
-  const Limits limits = arguments.limits == "source" ? Limits::kSource : Limits::kDefault;
-  MotionScore score;
-  SpeedSamples speeds;
-  const auto files = FilesOf(arguments);
-  for (const fs::path& file : files) {
-    const retargeting::Retargeted recording = reader.Read(file);
-    AddClip(file.filename().string(), recording, plan, rows, limits, score);
-    AddSpeeds(recording.motion, plan, rows, speeds);
+  if (!arguments.allowances.empty()) {
+    const auto files = FilesOf(arguments.data, arguments.allowances);
+    plan = WithAllowancesFor(ScoreOf(files, reader, {plan, rows, Limits::kSource}), plan);
   }
+  const Judges judges{plan, rows,
+                      arguments.limits == "source" ? Limits::kSource : Limits::kDefault};
+  const auto files = FilesOf(arguments.data, arguments.actor);
+  const SpeedSamples speeds = SpeedsOf(files, reader, judges);
   if (!arguments.speeds.empty()) {
     WriteSpeeds(speeds, arguments, files.size());
     return;
   }
-  Print(score);
+  Print(ScoreOf(files, reader, judges));
   Print(ScoreSpeeds(speeds, range_of_motion::LoadSpeedLimits(
                                 config::FindConfig("kinematics/joint_speeds.yaml"))));
 }

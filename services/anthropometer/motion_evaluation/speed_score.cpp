@@ -50,14 +50,16 @@ double UpToTens(double value) { return 10.0 * std::ceil(value / 10.0); }
 
 }  // namespace
 
-void AddSpeeds(const retargeting::BodyMotion& motion, const range_of_motion::RangePlan& plan,
-               const anatomy::JointLimits& rows, SpeedSamples& samples) {
+void AddSpeeds(const retargeting::BodyMotion& motion, const Judges& judges, SpeedSamples& samples) {
   const auto step =
       static_cast<std::size_t>(std::lround(SpeedSamples::kStep_s * motion.frame_rate_hz));
   if (step == 0) throw std::invalid_argument("frames lie too far apart to tell speeds");
   const double step_s = static_cast<double>(step) / motion.frame_rate_hz;
-  const range_of_motion::RangeOfMotion ranges(motion.model, plan, rows);
-  for (const ModelJoint& joint : ranges.joints()) {
+  const range_of_motion::RangeOfMotion ranges(motion.model, judges.plan, judges.rows);
+  const std::vector<bool> faults = FindFaults(motion, judges);
+  for (std::size_t k = 0; k < faults.size(); ++k) {
+    if (faults[k]) continue;
+    const ModelJoint& joint = ranges.joints()[k];
     const std::vector<Matrix3d> at = OrientationsOf(motion, joint);
     std::vector<Vector3d> rates;
     for (std::size_t i = 0; i + step < at.size(); ++i) {

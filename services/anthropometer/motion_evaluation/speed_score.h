@@ -6,6 +6,7 @@
 #include "common/range_of_motion/range_of_motion.h"
 #include "common/range_of_motion/speed_limits.h"
 #include "common/retargeting/retarget.h"
+#include "services/anthropometer/motion_evaluation/motion_score.h"
 
 namespace deixis::anthropometer {
 
@@ -17,9 +18,9 @@ struct SpeedSamples {
   std::map<std::string, std::vector<double>> speeds, accelerations;  ///< By joint of either side.
 };
 
-/// Adds a recording. Throws std::invalid_argument when its frames lie farther apart than kStep_s.
-void AddSpeeds(const retargeting::BodyMotion& motion, const range_of_motion::RangePlan& plan,
-               const anatomy::JointLimits& rows, SpeedSamples& samples);
+/// Adds the joints that the recording has right. Throws std::invalid_argument when its frames lie
+/// farther apart than kStep_s.
+void AddSpeeds(const retargeting::BodyMotion& motion, const Judges& judges, SpeedSamples& samples);
 
 /// The value that a share of the samples does not exceed; 0 of none.
 double Quantile(std::vector<double> samples, double share);
