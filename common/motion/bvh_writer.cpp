@@ -53,7 +53,6 @@ void RequireBvh(const Clip& clip) {
   };
   require(!clip.skeleton.joints.empty() && clip.frames.rows() > 0, "it is empty");
   require(clip.frames.cols() == clip.skeleton.ChannelCount(), "its frames have other channels");
-  require(std::isfinite(clip.frame_rate_hz) && clip.frame_rate_hz > 0.0, "it has no frame rate");
   for (std::size_t i = 0; i < clip.skeleton.joints.size(); ++i) {
     const Joint& joint = clip.skeleton.joints[i];
     const auto is_turned = [](const Eigen::Quaterniond& turn) { return turn.vec().norm() > 0.0; };
@@ -246,6 +245,7 @@ Clip ToBvhChannels(const Clip& clip) {
 
 void WriteBvh(const Clip& clip, const fs::path& path, const BvhOptions& options) {
   RequireUnit(options.metres_per_unit, path);
+  RequireRate(clip.frame_rate_hz, path);
   RequireBvh(clip);
   WriteWhole(BvhText(clip, path, options.metres_per_unit).Text(), path);
 }

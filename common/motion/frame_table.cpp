@@ -36,4 +36,11 @@ void RequireUnit(double metres_per_unit, const std::filesystem::path& path) {
   }
 }
 
+void RequireRate(double frame_rate_hz, const std::filesystem::path& path) {
+  if (!(frame_rate_hz >= 1e-6 && frame_rate_hz <= 1e6)) {
+    throw MotionFileError(path.string() +
+                          ": the frame rate must be from 1e-6 Hz to 1e6 Hz; give another");
+  }
+}
+
 }  // namespace deixis::motion

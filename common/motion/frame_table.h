@@ -47,4 +47,7 @@ class FrameTable {
 /// Throws MotionFileError about `path` unless a unit of length is from 1e-6 m to 1e6 m.
 void RequireUnit(double metres_per_unit, const std::filesystem::path& path);
 
+/// Throws MotionFileError about `path` unless a frame rate is from 1e-6 Hz to 1e6 Hz.
+void RequireRate(double frame_rate_hz, const std::filesystem::path& path);
+
 }  // namespace deixis::motion

@@ -100,5 +100,35 @@ TEST(ShippedRanges, GiveEachMotionItsSign) {
   EXPECT_NEAR(moved.Degrees("right_wrist")[0], 30.0, 1e-6);
 }
 
+/// Margin of a joint's rotation about its limb, degrees.
+double RotationMargin_deg(const std::string& name, double elbow_deg, double pronation_deg,
+                          double inside_deg) {
+  const BodyModel body = ShippedBody("whole_body");
+  const RangeOfMotion ranges(body, ShippedRanges(), ShippedRows(), Limits::kSource);
+  BodyPose pose = Standing(body);
+  const int arm = *body.Find("right_upper_arm"), forearm = *body.Find("right_lower_arm");
+  pose.angles_rad[body.first_angle(arm) + 2] += inside_deg * kDegree;
+  pose.angles_rad[body.first_angle(forearm)] = elbow_deg * kDegree;
+  pose.angles_rad[body.first_angle(forearm) + 1] = pronation_deg * kDegree;
+  Kinematics kinematics(body);
+  kinematics.Update(pose);
+  std::vector<JointState> states;
+  ranges.Check(kinematics, states);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (ranges.joints()[i].Name() != name) continue;
+    const Margins& margins = states[i].margins;
+    return margins.each[static_cast<std::size_t>(margins.count - 1)].margin_rad / kDegree;
+  }
+  throw std::logic_error("no joint " + name);
+}
+
+TEST(ShippedRanges, BoundRotationsThatAStretchedElbowCannotTellApartByTheirSum) {
+  EXPECT_NEAR(RotationMargin_deg("right_elbow", 60.0, 100.0, -50.0), -10.0, 1e-6);
+  EXPECT_GT(RotationMargin_deg("right_elbow", 10.0, 100.0, -50.0), 0.0);
+  EXPECT_GT(RotationMargin_deg("right_shoulder", 10.0, 110.0, -120.0), 0.0);
+  EXPECT_NEAR(RotationMargin_deg("right_shoulder", 60.0, 110.0, -120.0), -30.0, 1e-6);
+  EXPECT_NEAR(RotationMargin_deg("right_elbow", 10.0, 100.0, 100.0), -10.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace deixis::range_of_motion
