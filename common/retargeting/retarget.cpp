@@ -117,7 +117,9 @@ class LimbPaths {
     const DrivenLimb& driven = *drivers_.Find(limb);
     const Matrix3d turned = paths_.Turn(driven) * FrameOf(limb);
     if (!driven.is_aimed || !paths_.HasEnd(driven)) return turned;
-    const Vector3d aim = paths_.End_m(driven) - MiddleOfHips().value_or(paths_.Start_m(driven));
+    const Vector3d start_m =
+        limb == 0 ? MiddleOfHips().value_or(paths_.Start_m(driven)) : paths_.Start_m(driven);
+    const Vector3d aim = paths_.End_m(driven) - start_m;
     if (aim.norm() < kShortest_m) return turned;
     return Eigen::Quaterniond::FromTwoVectors(turned.col(2), aim).toRotationMatrix() * turned;
   }
