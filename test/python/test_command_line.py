@@ -25,7 +25,8 @@ from deixis_frontend.cli import main
     "hz --window 0", "delay --window nan", "topics --seconds -1", "doctor --seconds inf",
     "export x --mcap y --channels (", "procman --output x --wait-ms -1",
     "train-gestures --data x --output y --noise-px -1",
-    "train-gestures --data x --output y --noise-px nan",
+    "train-gestures --data x --output y --noise-px nan", "body --sex male --stature inf",
+    "body --sex male --percentile 101",
 ])
 def test_numbers_that_make_no_sense_are_wrong_usage(arguments: str,
                                                     capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,16 +7,11 @@
 #include "common/anthropometry/person_estimate.h"
 #include "common/body_model/body_plan.h"
 #include "common/body_model/joint_angles.h"
+#include "common/body_model/kinematics.h"
+#include "test/services/anthropometer/person.h"
 
 namespace deixis::anthropometer {
 namespace {
-
-body_model::BodyModel Person(const std::string& name) {
-  const std::string config = DEIXIS_SOURCE_DIR "/config/";
-  return Build(body_model::LoadBodyPlan(config + "body_models/" + name + ".yaml"),
-               SizesOf(anthropometry::Populations::Load(config + "kinematics/population.yaml"),
-                       anthropometry::Sex::kMale, 1.8));
-}
 
 /// Rows from the highest to the lowest pixel that is not paper.
 int HeightOf(const cv::Mat& picture) {
@@ -32,7 +27,7 @@ int HeightOf(const cv::Mat& picture) {
 }
 
 TEST(Drawing, ShowsThePersonAsTallAsHeIsInBothViews) {
-  const body_model::BodyModel model = Person("whole_body_detailed");
+  const body_model::BodyModel model = TallMan("whole_body_detailed");
   for (const View view : {View::kFront, View::kSide}) {
     const cv::Mat picture = Draw(model, Standing(model), view, 400, 2.0);
     EXPECT_EQ(picture.size(), cv::Size(400, 400));
@@ -41,7 +36,7 @@ TEST(Drawing, ShowsThePersonAsTallAsHeIsInBothViews) {
 }
 
 TEST(Drawing, ShowsTheLeftSideOnTheRightFromTheFront) {
-  const body_model::BodyModel model = Person("whole_body");
+  const body_model::BodyModel model = TallMan("whole_body");
   const cv::Mat picture = Draw(model, Standing(model), View::kFront, 400, 2.0);
   cv::Mat mirrored;
   cv::flip(picture, mirrored, 1);
@@ -51,13 +46,23 @@ TEST(Drawing, ShowsTheLeftSideOnTheRightFromTheFront) {
 }
 
 TEST(Drawing, DoesNotDependOnWhereTheBodyIs) {
-  const body_model::BodyModel model = Person("upper_body");
+  const body_model::BodyModel model = TallMan("upper_body");
   body_model::BodyPose pose = Standing(model);
   const cv::Mat here = DrawFrontAndSide(model, pose, 200);
   pose.frame_from_root.translation_m = {5.0, -3.0, 2.0};
   pose.frame_from_root.rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
   EXPECT_EQ(cv::norm(here, DrawFrontAndSide(model, pose, 200), cv::NORM_INF), 0.0);
   EXPECT_EQ(here.size(), cv::Size(400, 200));
+}
+
+TEST(Drawing, StandsUprightWithHangingArms) {
+  const body_model::BodyModel model = TallMan("whole_body_detailed");
+  body_model::Kinematics kinematics(model);
+  kinematics.Update(Standing(model));
+  for (const char* limb : {"right_upper_arm", "left_lower_arm", "right_thigh", "left_shank"}) {
+    const Eigen::Vector3d along = kinematics.limb(*model.Find(limb)).linear().col(2);
+    EXPECT_LE((along + Eigen::Vector3d::UnitZ()).norm(), 1e-9) << limb;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,141 @@
+"""`deixis body`: the human model of one person: sizes, limbs and joint limits; as picture, URDF and mesh."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any
+
+from deixis_frontend import layout, output_files
+from deixis_frontend.commands import body_motion
+from deixis_frontend.errors import UserError
+from deixis_frontend.number_options import above_zero
+from deixis_frontend.programs import run_program
+from deixis_frontend.text_table import lines
+
+_STATURES_M = (1.2, 2.3)
+_PERCENTILES = (0.1, 99.9)
+_FILES = ("urdf", "ply")
+_PASSED_ON = ("sex", "stature", "percentile", "model", "joint", "measure", "language", "pose",
+              "body_id")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Who it is, what is told of the body, and the files that are written of it."""
+    parser.add_argument("--sex", choices=("female", "male"), help="whose sizes; needed without --motion")
+    size = parser.add_mutually_exclusive_group()
+    size.add_argument("--stature", type=_stature, metavar="METRES", help="body height")
+    size.add_argument("--percentile", type=_percentile, metavar="P",
+                      help="instead: P %% of that sex are no taller (default: 50)")
+    parser.add_argument("--model", metavar="NAME", default="whole_body_detailed",
+                        help="file of config/body_models (default: %(default)s)")
+    parser.add_argument("--joint", metavar="NAME",
+                        help="tell the limits of this joint only; in any language")
+    parser.add_argument("--measure", metavar="NAME", help="tell this measure only; in any language")
+    parser.add_argument("--language", choices=("en", "de", "la"), default="en",
+                        help="of the names (default: %(default)s)")
+    parser.add_argument("--json", action="store_true", help="print JSON, with more in it")
+    parser.add_argument("--pose", choices=("standing", "rest"), default="standing",
+                        help="how the body is drawn and meshed (default: %(default)s)")
+    parser.add_argument("--angle", action="append", default=[], metavar="LIMB.ANGLE=DEGREES",
+                        help="then one angle of it, as right_lower_arm.flexion=90; again for more")
+    parser.add_argument("--urdf", type=Path, metavar="FILE", help="write the model as URDF")
+    parser.add_argument("--body-id", default="default", metavar="ID",
+                        help="ends all names of the URDF, as in REP 155 (default: %(default)s)")
+    parser.add_argument("--ply", type=Path, metavar="FILE", help="write the surface as PLY, metres")
+    body_motion.add_arguments(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """0; raises UserError when a name is none or a file cannot be written."""
+    body_motion.check(arguments)
+    if arguments.motion is not None:
+        return body_motion.run(arguments)
+    if arguments.sex is None:
+        raise UserError("--sex female or --sex male is needed, or a motion file: --motion FILE")
+    for option in _FILES:
+        if getattr(arguments, option) is not None:
+            output_files.require_file(getattr(arguments, option), f"--{option}")
+    report = json.loads(run_program(layout.find(), "deixis-body", *_options(arguments)))
+    if arguments.json:
+        print(json.dumps(report, indent=2, ensure_ascii=False))
+        return 0
+    print("\n".join(_text(report)))
+    for option in _FILES:
+        if getattr(arguments, option) is not None:
+            print(f"written: {getattr(arguments, option)}")
+    return 0
+
+
+def _options(arguments: argparse.Namespace) -> list[str]:
+    """The program's command line."""
+    options = []
+    for name in (*_PASSED_ON, *_FILES):
+        value = getattr(arguments, name)
+        if value is not None:
+            options.append(f"--{name.replace('_', '-')}={value}")
+    return options + [f"--angle={text}" for text in arguments.angle]
+
+
+def _text(report: dict[str, Any]) -> list[str]:
+    """The report as people read it: a heading and the tables that are there."""
+    text = [f"{report['sex']}, {report['stature_m']:.3f} m, {report['model']}"]
+    tables = {"measures": _measures, "limbs": _limbs, "joint_limits": _joint_limits}
+    for part, table in tables.items():
+        if part in report:
+            text += ["", *table(report[part])]
+    return text
+
+
+def _measures(rows: list[dict[str, Any]]) -> list[str]:
+    return lines([("measure", "name", "mm"),
+                  *((row["measure"], row["name"], f"{row['mm']:.0f}") for row in rows)], left=2)
+
+
+def _limbs(limbs: list[dict[str, Any]]) -> list[str]:
+    """Millimetres: length, semi-axes of both ends; then the model's angles, degrees."""
+    table = lines([("limb", "length mm", "proximal a, b", "distal a, b", "angles of its joint"),
+                   *(_limb(limb) for limb in limbs)], left=5)
+    return table
+
+
+def _limb(limb: dict[str, Any]) -> tuple[str, str, str, str, str]:
+    ends = [" ".join(f"{1000 * axis:.0f}" for axis in limb[f"{end}_semi_axes_m"])
+            for end in ("proximal", "distal")]
+    angles = ", ".join(f"{angle['angle']} {angle['min_deg']:g}..{angle['max_deg']:g}"
+                       for angle in limb["angles"])
+    return limb["limb"], f"{1000 * limb['length_m']:.0f}", ends[0], ends[1], angles
+
+
+def _joint_limits(rows: list[dict[str, Any]]) -> list[str]:
+    table = lines([("joint", "posture", "motion", "degrees"),
+                   *((row["joint_name"], row["posture"], row["motion_name"], _degrees(row))
+                     for row in rows)], left=3)
+    notes = [f"corrected: {row['joint_name']}, {row['motion_name']}: the source prints"
+             f" \"{row['printed']}\": {row['why']}" for row in rows if row["printed"]]
+    return table + ([""] if notes else []) + notes
+
+
+def _degrees(row: dict[str, Any]) -> str:
+    span = f"{row['high_deg']:g}"
+    if row["low_deg"] != row["high_deg"]:
+        span = f"{row['low_deg']:g}-{span}"
+    return f"+-{span}" if row["is_to_both_sides"] else span
+
+
+def _stature(text: str) -> float:
+    value = above_zero(text)
+    low, high = _STATURES_M
+    if not low <= value <= high:
+        hint = f": {value / 100:g}?" if low <= value / 100 <= high else ""
+        raise argparse.ArgumentTypeError(f"{text} is beyond {low:g}..{high:g} metres{hint}")
+    return value
+
+
+def _percentile(text: str) -> float:
+    value = above_zero(text)
+    low, high = _PERCENTILES
+    if not low <= value <= high:
+        raise argparse.ArgumentTypeError(f"{text} is beyond {low:g}..{high:g}")
+    return value

@@ -1,0 +1,77 @@
+// Tells of the body model of one person: sizes, limbs and joint limits as JSON; draws it; writes it
+// as URDF and as a mesh.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <string>
+
+#include "common/anthropometry/person_estimate.h"
+#include "common/body_model/body_plan.h"
+#include "common/config/config.h"
+#include "common/program/command_line.h"
+#include "services/anthropometer/body/arguments.h"
+#include "services/anthropometer/core/body_report.h"
+#include "services/anthropometer/core/json_text.h"
+#include "services/anthropometer/core/mesh.h"
+#include "services/anthropometer/core/urdf.h"
+#include "services/anthropometer/core/whole_file.h"
+
+namespace deixis::anthropometer {
+namespace {
+
+using config::FindConfig;
+
+Person PersonOf(const Arguments& arguments) {
+  const auto populations =
+      anthropometry::Populations::Load(FindConfig("kinematics/population.yaml"));
+  const double stature_m =
+      arguments.stature_m
+          ? *arguments.stature_m
+          : StatureAt(populations, arguments.sex, 0.01 * arguments.percentile.value_or(50.0));
+  return {arguments.sex, stature_m, SizesOf(populations, arguments.sex, stature_m)};
+}
+
+std::string Told(const Person& person, const body_model::BodyModel& model,
+                 const body_model::BodyPose& pose, const Arguments& arguments) {
+  const ReportRequest& request = arguments.request;
+  std::vector<JsonMember> parts = {
+      {"sex", JsonString(person.sex == anthropometry::Sex::kFemale ? "female" : "male")},
+      {"stature_m", JsonNumber(person.stature_m)},
+      {"model", JsonString(model.name())}};
+  const bool is_all = request.joint.empty() && request.measure.empty();
+  if (is_all || !request.measure.empty()) {
+    parts.push_back({"measures", MeasuresJson(ShippedMeasures(), person, request)});
+  }
+  if (is_all) {
+    parts.push_back({"limbs", LimbsJson(model, pose)});
+    parts.push_back({"urdf_joints_rad", JointValuesJson(model, pose, arguments.body_id)});
+  }
+  if (is_all || !request.joint.empty()) {
+    parts.push_back({"joint_limits", JointLimitsJson(ShippedLimits(), request)});
+  }
+  return JsonObject(parts);
+}
+
+void Run(const Arguments& arguments) {
+  const Person person = PersonOf(arguments);
+  const auto model =
+      Build(body_model::LoadBodyPlan(FindConfig("body_models/" + arguments.model + ".yaml")),
+            person.sizes_m);
+  const body_model::BodyPose pose = PoseOf(model, arguments);
+  const std::string told = Told(person, model, pose, arguments);
+  if (!arguments.urdf.empty()) WriteWhole(arguments.urdf, UrdfOf(model, arguments.body_id));
+  if (!arguments.ply.empty()) WriteWhole(arguments.ply, PlyOf(model, pose));
+  std::cout << told << "\n";
+}
+
+}  // namespace
+}  // namespace deixis::anthropometer
+
+int main(int argc, char** argv) {
+  try {
+    deixis::anthropometer::Run(deixis::anthropometer::Parse(argc, argv));
+  } catch (const std::exception& error) {
+    std::cerr << "deixis-body: " << error.what() << "\n";
+    return deixis::program::kCannotWork;
+  }
+  return deixis::program::kStopped;
+}

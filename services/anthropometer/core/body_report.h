@@ -1,0 +1,43 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/anatomy/joint_limits.h"
+#include "common/anthropometry/body_measures.h"
+#include "common/body_model/body_model.h"
+
+namespace deixis::anthropometer {
+
+/// What is told of a body.
+struct ReportRequest {
+  anatomy::Language language = anatomy::Language::kEnglish;
+  std::string joint;    ///< Only this one's limits; empty = those of all.
+  std::string measure;  ///< Only this one; empty = all.
+};
+
+/// A person as the tables have him or her.
+struct Person {
+  anthropometry::Sex sex = anthropometry::Sex::kFemale;
+  double stature_m = 0.0;
+  std::map<std::string, double> sizes_m;  ///< By measure.
+};
+
+/// Millimetres of each measure that is known, those that are sums of others too, as JSON.
+/// Throws ConfigError, with all names, for a `request.measure` that is none.
+std::string MeasuresJson(const anthropometry::BodyMeasures& measures, const Person& person,
+                         const ReportRequest& request);
+
+/// The rows of joint limits, as JSON. Throws ConfigError, with all names, for a `request.joint`
+/// that is none.
+std::string JointLimitsJson(const anatomy::JointLimits& limits, const ReportRequest& request);
+
+/// The limbs with their sizes, where they lie in a pose (frame of the base limb's joint) and their
+/// angles, as JSON.
+std::string LimbsJson(const body_model::BodyModel& model, const body_model::BodyPose& pose);
+
+/// What the joints of the model's URDF stand at in a pose, radians, as JSON.
+std::string JointValuesJson(const body_model::BodyModel& model, const body_model::BodyPose& pose,
+                            const std::string& body_id);
+
+}  // namespace deixis::anthropometer

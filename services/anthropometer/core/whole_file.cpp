@@ -1,0 +1,38 @@
+#include "services/anthropometer/core/whole_file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "common/config/config.h"
+
+namespace deixis::anthropometer {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void Refuse(const fs::path& file, const std::string& why) {
+  throw config::ConfigError(file.string() + ": cannot be written: " + why);
+}
+
+}  // namespace
+
+void WriteWhole(const fs::path& file, const std::string& bytes) {
+  std::error_code error;
+  if (fs::is_directory(file, error)) Refuse(file, "it is a folder");
+  const fs::path unfinished = file.string() + "." + std::to_string(getpid()) + ".part";
+  std::ofstream out(unfinished, std::ios::binary);
+  if (!out) Refuse(file, std::strerror(errno));
+  out << bytes;
+  out.close();
+  if (out) fs::rename(unfinished, file, error);
+  if (!out || error) {
+    const std::string why = error ? error.message() : "no room";
+    fs::remove(unfinished, error);
+    Refuse(file, why);
+  }
+}
+
+}  // namespace deixis::anthropometer
