@@ -14,8 +14,8 @@ namespace {
 constexpr double kUnitTolerance = 1e-6;
 constexpr double kWidestAngle_rad = 2.0 * M_PI;
 
-[[noreturn]] void Fail(const std::string& limb, const std::string& fault) {
-  throw config::ConfigError("limb '" + limb + "': " + fault);
+[[noreturn]] void Fail(const std::string& limb, const std::string& key, const std::string& fault) {
+  throw LimbFault(limb, key, fault);
 }
 
 void RequireTree(const std::vector<Limb>& limbs) {
@@ -28,45 +28,49 @@ void RequireTree(const std::vector<Limb>& limbs) {
     const Limb& limb = limbs[i];
     if (limb.name.empty())
       throw config::ConfigError("limbs: limb " + std::to_string(i) + " has no name");
-    if (!names.insert(limb.name).second) Fail(limb.name, "occurs twice");
-    if (i == 0 && limb.parent != -1) Fail(limb.name, "is the first one, so it must have no parent");
+    if (!names.insert(limb.name).second) Fail(limb.name, "name", "occurs twice");
+    if (i == 0 && limb.parent != -1)
+      Fail(limb.name, "parent", "is the first one, so it must have no parent");
     if (i > 0 && (limb.parent < 0 || limb.parent >= static_cast<int>(i))) {
-      Fail(limb.name, "parent must be one of the limbs before it");
+      Fail(limb.name, "parent", "parent must be one of the limbs before it");
     }
   }
 }
 
 void RequireSize(const Limb& limb, const char* key, double size_m) {
   if (size_m > 0.0 && size_m <= BodyModel::kLargest_m) return;
-  Fail(limb.name, std::string(key) + " is " + std::to_string(size_m) +
-                      " m; must be positive and at most " +
-                      std::to_string(static_cast<int>(BodyModel::kLargest_m)));
+  Fail(limb.name, key,
+       std::string(key) + " is " + std::to_string(size_m) + " m; must be positive and at most " +
+           std::to_string(static_cast<int>(BodyModel::kLargest_m)));
 }
 
 void RequireNear(const Limb& limb, const char* key, double largest_m) {
   if (largest_m <= BodyModel::kLargest_m) return;  // NaN is not.
-  Fail(limb.name, std::string(key) + " must lie within " +
-                      std::to_string(static_cast<int>(BodyModel::kLargest_m)) + " m");
+  Fail(limb.name, key,
+       std::string(key) + " must lie within " +
+           std::to_string(static_cast<int>(BodyModel::kLargest_m)) + " m");
 }
 
 void RequireShape(const Limb& limb) {
   const geometry::DegenerateCylinder& shape = limb.shape;
-  RequireSize(limb, "a0", shape.a0_m);
-  RequireSize(limb, "b0", shape.b0_m);
-  RequireSize(limb, "a1", shape.a1_m);
-  RequireSize(limb, "b1", shape.b1_m);
+  RequireSize(limb, "proximal.a", shape.a0_m);
+  RequireSize(limb, "proximal.b", shape.b0_m);
+  RequireSize(limb, "distal.a", shape.a1_m);
+  RequireSize(limb, "distal.b", shape.b1_m);
   RequireSize(limb, "length", shape.length_m);
-  RequireNear(limb, "centre0", shape.centre0_m.norm());
-  RequireNear(limb, "centre1", shape.centre1_m.norm());
+  RequireNear(limb, "proximal", shape.centre0_m.norm());
+  RequireNear(limb, "distal", shape.centre1_m.norm());
   RequireNear(limb, "origin", limb.rest_in_parent.translation_m.norm());
   if (!(std::abs(limb.rest_in_parent.rotation.norm() - 1.0) < kUnitTolerance)) {
-    Fail(limb.name, "rest must be a rotation");
+    Fail(limb.name, "rest_z", "rest must be a rotation");
   }
 }
 
 void RequireDof(const Limb& limb, const DegreeOfFreedom& dof) {
-  const auto fail = [&](const std::string& fault) { Fail(limb.name, dof.name + " " + fault); };
-  if (dof.name.empty()) Fail(limb.name, "has an angle without a name");
+  const auto fail = [&](const std::string& fault) {
+    Fail(limb.name, "angles", dof.name + " " + fault);
+  };
+  if (dof.name.empty()) Fail(limb.name, "angles", "has an angle without a name");
   if (!(std::abs(dof.axis.norm() - 1.0) < kUnitTolerance)) fail("axis must be a unit vector");
   const double along = std::abs(dof.axis.z());
   if (dof.kind == DofKind::kSwing && along > kUnitTolerance)
@@ -87,26 +91,30 @@ void RequireDof(const Limb& limb, const DegreeOfFreedom& dof) {
 
 void RequireJoint(const Limb& limb) {
   if (limb.parent < 0 && !limb.dofs.empty()) {
-    Fail(limb.name, "is the base limb, which moves with the root and has no angles of its own");
+    Fail(limb.name, "angles",
+         "is the base limb, which moves with the root and has no angles of its own");
   }
-  if (limb.dofs.size() > 3) Fail(limb.name, "has more than three angles");
+  if (limb.dofs.size() > 3) Fail(limb.name, "angles", "has more than three angles");
   int kinds[3] = {0, 0, 0};
   std::set<std::string> names;
   for (const DegreeOfFreedom& dof : limb.dofs) {
     RequireDof(limb, dof);
     ++kinds[static_cast<int>(dof.kind)];
-    if (!names.insert(dof.name).second) Fail(limb.name, dof.name + " occurs twice");
+    if (!names.insert(dof.name).second) Fail(limb.name, "angles", dof.name + " occurs twice");
   }
   const auto count = [&kinds](DofKind kind) { return kinds[static_cast<int>(kind)]; };
   if (count(DofKind::kSwing) > 0 && count(DofKind::kHinge) > 0) {
-    Fail(limb.name, "mixes swings and hinges");
+    Fail(limb.name, "angles", "mixes swings and hinges");
   }
   if (count(DofKind::kSwing) > 2 || count(DofKind::kTwist) > 1) {
-    Fail(limb.name, "has more than two swings or one twist");
+    Fail(limb.name, "angles", "has more than two swings or one twist");
   }
 }
 
 }  // namespace
+
+LimbFault::LimbFault(std::string limb, std::string key, const std::string& fault)
+    : ConfigError("limb '" + limb + "': " + fault), limb_(std::move(limb)), key_(std::move(key)) {}
 
 BodyModel::BodyModel(std::string name, std::vector<Limb> limbs)
     : name_(std::move(name)), limbs_(std::move(limbs)), children_(limbs_.size()) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/config/config.h"
 #include "common/geometry/degenerate_cylinder.h"
 #include "common/geometry/rigid_transform.h"
 
@@ -43,6 +44,19 @@ struct Limb {
   std::vector<DegreeOfFreedom> dofs;  ///< At most three; none = fixed to its parent.
 };
 
+/// What is wrong with one limb: "limb 'right_hand': length is ...".
+class LimbFault : public config::ConfigError {
+ public:
+  /// `key` is what files of config/body_models call it; empty = the limb itself.
+  LimbFault(std::string limb, std::string key, const std::string& fault);
+  const std::string& limb() const { return limb_; }
+  const std::string& key() const { return key_; }
+
+ private:
+  std::string limb_;
+  std::string key_;
+};
+
 /// The constant shape of one person: a tree of limbs, parents before their children, the base limb
 /// first ("Report on definitions of human attribute model and posture estimation", section 1.2).
 class BodyModel {
@@ -51,7 +65,7 @@ class BodyModel {
   static constexpr double kLargest_m = 3.0;
   static constexpr int kMostLimbs = 1000;
 
-  /// Throws config::ConfigError, beginning with the limb and its key, when `limbs` are no such
+  /// Throws LimbFault, or ConfigError when there are none or too many, when `limbs` are no such
   /// tree, sizes are not positive or absurd, axes do not suit their kinds, a joint mixes swings and
   /// hinges, or a smallest angle is above its largest.
   BodyModel(std::string name, std::vector<Limb> limbs);

@@ -23,8 +23,8 @@ Vector3d Direction(const std::vector<double>& values) {
   return Vector3d(values[0], values[1], values[2]).normalized();
 }
 
-[[noreturn]] void Fail(const std::string& limb, const std::string& fault) {
-  throw config::ConfigError("limb '" + limb + "': " + fault);
+[[noreturn]] void Fail(const std::string& limb, const std::string& key, const std::string& fault) {
+  throw LimbFault(limb, key, fault);
 }
 
 /// One limb of the body: of a plan for both sides there are two.
@@ -62,10 +62,10 @@ void RequireParents(const std::vector<Member>& members) {
   for (const Member& member : members) {
     if (!member.parent.empty()) {
       if (names.count(member.parent) == 0) {
-        Fail(member.name, "parent '" + member.parent + "' is no limb of this body");
+        Fail(member.name, "parent", "parent '" + member.parent + "' is no limb of this body");
       }
     } else if (!base.empty()) {
-      Fail(member.name, "has no parent, but '" + base + "' is the base limb; name a parent");
+      Fail(member.name, "", "has no parent, but '" + base + "' is the base limb; name a parent");
     } else {
       base = member.name;
     }
@@ -91,7 +91,8 @@ std::vector<Member> InOrder(std::vector<Member> members) {
       }
     }
     if (waiting.size() == members.size()) {
-      Fail(waiting.front().name, "is its own ancestor, by '" + waiting.front().parent + "'");
+      Fail(waiting.front().name, "parent",
+           "is its own ancestor, by '" + waiting.front().parent + "'");
     }
     members = std::move(waiting);
   }
@@ -117,7 +118,7 @@ class Lengths {
   double Of(const std::string& measure) const {
     const auto size = sizes_.find(measure);
     if (size != sizes_.end()) return size->second;
-    Fail(member_.name, "measure '" + measure + "' is not known of this person");
+    Fail(member_.name, "", "measure '" + measure + "' is not known of this person");
   }
 
   const Member& member_;
@@ -133,7 +134,7 @@ Eigen::Quaterniond RestOf(const Member& member) {
   const Vector3d z = Mirrored(Direction(member.plan->rest_z), member.is_left);
   const Vector3d hint = Mirrored(Direction(member.plan->rest_x), member.is_left);
   const Vector3d across = hint - hint.dot(z) * z;
-  if (across.norm() < 1e-3) Fail(member.name, "rest_x must not be parallel to rest_z");
+  if (across.norm() < 1e-3) Fail(member.name, "rest_x", "rest_x must not be parallel to rest_z");
   Eigen::Matrix3d axes;
   axes.col(0) = across.normalized();
   axes.col(2) = z;
@@ -173,6 +174,16 @@ Limb LimbOf(const Member& member, int parent, const Sizes& sizes) {
                 {length(plan.distal.x), length.Sideways(plan.distal.y)}};
   for (const AnglePlan& angle : plan.angles) limb.dofs.push_back(DofOf(angle, member.is_left));
   return limb;
+}
+
+/// limbs[8].length
+std::string KeyOf(const BodyPlan& plan, const LimbFault& fault) {
+  for (const Member& member : Members(plan)) {
+    if (member.name != fault.limb()) continue;
+    const auto index = member.plan - plan.limbs.data();
+    return "limbs[" + std::to_string(index) + "]" + (fault.key().empty() ? "" : "." + fault.key());
+  }
+  return "limbs";
 }
 
 }  // namespace
@@ -235,6 +246,17 @@ BodyModel Build(const BodyPlan& plan, const Sizes& sizes) {
     limbs.push_back(LimbOf(member, parent, sizes));
   }
   return {plan.name, std::move(limbs)};
+}
+
+BodyModel LoadBody(const std::filesystem::path& path, const Sizes& sizes) {
+  const BodyPlan plan = LoadBodyPlan(path);
+  try {
+    return Build(plan, sizes);
+  } catch (const LimbFault& fault) {
+    throw config::ConfigError(config::PlaceOf(path, KeyOf(plan, fault)) + ": " + fault.what());
+  } catch (const config::ConfigError& error) {
+    throw config::ConfigError(config::PlaceOf(path, "limbs") + ": " + error.what());
+  }
 }
 
 }  // namespace deixis::body_model

@@ -139,4 +139,7 @@ std::vector<std::string> MeasuresOf(const BodyPlan& plan);
 /// and as BodyModel does.
 BodyModel Build(const BodyPlan& plan, const Sizes& sizes);
 
+/// Both at once; what is wrong is told by file, line and key.
+BodyModel LoadBody(const std::filesystem::path& path, const Sizes& sizes);
+
 }  // namespace deixis::body_model

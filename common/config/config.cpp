@@ -199,6 +199,17 @@ Reader OpenFile(const fs::path& path, const std::vector<std::string>& overrides,
   return Reader(std::move(state));
 }
 
+std::string PlaceOf(const fs::path& path, const std::string& key) {
+  const YamlDocument document(path, {});
+  YAML::Mark mark = MarkOf(document.root(), key);
+  std::string holder = key;
+  while (mark.is_null() && holder.find_last_of(".[") != std::string::npos) {
+    holder.resize(holder.find_last_of(".["));
+    mark = MarkOf(document.root(), holder);
+  }
+  return document.PlaceOf(key, mark) + ": key '" + key + "'";
+}
+
 fs::path FindConfig(const std::string& name) {
   if (name.empty()) throw ConfigError("the name of a configuration file is empty; give one");
   std::string searched;

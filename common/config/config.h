@@ -162,6 +162,11 @@ T Load(const std::filesystem::path& path, const std::vector<std::string>& overri
   return value;
 }
 
+/// Where a file states `key` ("places[2].label"), for what is wrong with its value only beside
+/// others: "file:12: key 'places[2].label'"; the line of what holds it when it is left out. Throws
+/// ConfigError as OpenFile does.
+std::string PlaceOf(const std::filesystem::path& path, const std::string& key);
+
 /// Where a shipped configuration file lies: `name` itself if it is a path that exists, else under
 /// $DEIXIS_CONFIG_DIR, else beside the installed or built program (../share/deixis/config), else
 /// the source tree. Throws ConfigError listing the places that were searched, or naming what lies

@@ -34,7 +34,7 @@ def program_lines(layout: Layout, name: str, *arguments: str) -> Iterator[str]:
         if program.returncode != 0:
             said.seek(0)
             reason = last_words(said.read()) or f"exit code {program.returncode}"
-            raise UserError(f"{name} failed: {reason}")
+            raise UserError(f"{name} failed: {reason.removeprefix(f'{name}: ')}")
 
 
 def last_words(said: str) -> str:

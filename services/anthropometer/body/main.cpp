@@ -12,6 +12,7 @@
 #include "services/anthropometer/core/body_report.h"
 #include "services/anthropometer/core/json_text.h"
 #include "services/anthropometer/core/mesh.h"
+#include "services/anthropometer/core/model_file.h"
 #include "services/anthropometer/core/urdf.h"
 #include "services/anthropometer/core/whole_file.h"
 
@@ -53,9 +54,7 @@ std::string Told(const Person& person, const body_model::BodyModel& model,
 
 void Run(const Arguments& arguments) {
   const Person person = PersonOf(arguments);
-  const auto model =
-      Build(body_model::LoadBodyPlan(FindConfig("body_models/" + arguments.model + ".yaml")),
-            person.sizes_m);
+  const auto model = body_model::LoadBody(FindModelFile(arguments.model), person.sizes_m);
   const body_model::BodyPose pose = PoseOf(model, arguments);
   const std::string told = Told(person, model, pose, arguments);
   if (!arguments.urdf.empty()) WriteWhole(arguments.urdf, UrdfOf(model, arguments.body_id));

@@ -7,6 +7,7 @@
 #include "common/anthropometry/person_estimate.h"
 #include "common/body_model/body_plan.h"
 #include "common/config/config.h"
+#include "services/anthropometer/core/model_file.h"
 
 namespace deixis::anthropometer {
 namespace {
@@ -23,8 +24,7 @@ std::string ExtensionOf(const fs::path& file) {
 body_model::BodyModel AveragePerson(const std::string& model) {
   const auto populations =
       anthropometry::Populations::Load(config::FindConfig("kinematics/population.yaml"));
-  const auto plan = body_model::LoadBodyPlan(config::FindConfig("body_models/" + model + ".yaml"));
-  return Build(plan, EstimatePerson(populations, {}).Sizes_m());
+  return body_model::LoadBody(FindModelFile(model), EstimatePerson(populations, {}).Sizes_m());
 }
 
 }  // namespace

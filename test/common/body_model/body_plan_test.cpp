@@ -112,6 +112,44 @@ TEST_F(BodyPlanTest, NamesTheMeasuresThatItNeeds) {
   EXPECT_THAT(MeasuresOf(plan), ElementsAre("arm", "trunk", "width"));
 }
 
+struct BrokenBody {
+  std::string from, to, place, complaint;
+};
+
+TEST_F(BodyPlanTest, NamesFileLineAndKeyOfWhatIsWrong) {
+  const std::string good = std::string(kTorso) + kArm;
+  for (const BrokenBody& broken :
+       {BrokenBody{"parent: torso", "parent: tail", "sample.yaml:8: key 'limbs[1].parent'",
+                   "parent 'tail' is no limb"},
+        BrokenBody{"parent: torso", "parent: lower_arm", "sample.yaml:8: key 'limbs[1].parent'",
+                   "is its own ancestor"},
+        BrokenBody{"    parent: torso\n    side: both\n", "", "sample.yaml:7: key 'limbs[1]",
+                   "has no parent"},
+        BrokenBody{"{of: arm}", "{of: arm, share: -1}", "sample.yaml:13: key 'limbs[1].length'",
+                   "length is -0.3"},
+        BrokenBody{"{of: arm}", "{of: arm, share: 10.0}, {of: arm}",
+                   "sample.yaml:13: key 'limbs[1].length'", "at most 3"},
+        BrokenBody{"a: [{metres: 0.05}]", "a: [{metres: -0.05}]",
+                   "sample.yaml:14: key 'limbs[1].proximal.a'", "must be positive"},
+        BrokenBody{"{of: arm}", "{of: tail}", "sample.yaml:7: key 'limbs[1]'",
+                   "measure 'tail' is not known"},
+        BrokenBody{"min_deg: -90", "min_deg: 95",
+                   "sample.yaml:17: key 'limbs[1].angles[0].max_deg'", "between min_deg and 360"},
+        BrokenBody{"rest_x: [1, 0, 0]", "rest_x: [0.2, -1, 0]",
+                   "sample.yaml:12: key 'limbs[1].rest_x'", "parallel"}}) {
+    std::string text = good;
+    text.replace(text.find(broken.from), broken.from.size(), broken.to);
+    try {
+      LoadBody(folder_.Write("sample.yaml", text), kSizes);
+      ADD_FAILURE() << broken.complaint;
+    } catch (const config::ConfigError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(broken.place));
+      EXPECT_THAT(error.what(), HasSubstr(broken.complaint));
+    }
+  }
+  EXPECT_EQ(LoadBody(folder_.Write("sample.yaml", good), kSizes).id(), Made(good).id());
+}
+
 TEST_F(BodyPlanTest, TakesLimbsInAnyOrder) {
   const std::string torso = std::string(kTorso).substr(std::string(kTorso).find("  - name"));
   const BodyModel model = Made("name: sample\nlimbs:\n" + std::string(kArm) + torso);
@@ -153,7 +191,7 @@ TEST_F(BodyPlanTest, NamesFileLineAndKeyOfWrongValues) {
     EXPECT_TRUE(SaysOf(torso + replaced(arm, from, to), "sample.yaml:")) << to;
   }
   EXPECT_TRUE(SaysOf(torso + replaced(arm, "{metres: 0.05}", "{metres: -0.05}"),
-                     "'right_upper_arm': a0 is -0.05"));
+                     "'right_upper_arm': proximal.a is -0.05"));
 }
 
 }  // namespace
