@@ -9,21 +9,18 @@ namespace deixis::anatomy {
 namespace {
 
 struct TermEntry {
-  std::string latin, english, german, printed, why;
+  Names names;
+  std::string printed, why;
 
   template <typename Visitor>
   void Visit(Visitor& v) {
-    v("latin", latin);
-    v("english", english);
-    v("german", german);
+    names.Visit(v);
     v("printed", printed);
     v("why", why);
   }
   void Validate() const {
     config::Faults faults;
-    faults.Require(!latin.empty(), "latin", "must not be empty");
-    faults.Require(!english.empty(), "english", "must not be empty");
-    faults.Require(!german.empty(), "german", "must not be empty");
+    names.Require(faults);
     faults.ThrowIfAny();
   }
 };
@@ -49,14 +46,22 @@ struct GlossaryFile {
   }
 };
 
+std::string WithoutBrackets(const std::string& text) {
+  return !text.empty() && text.back() == ')' ? text.substr(0, text.find(" (")) : text;
+}
+
+Names WithoutBrackets(const Names& names) {
+  return {WithoutBrackets(names.english), WithoutBrackets(names.german),
+          WithoutBrackets(names.latin)};
+}
+
 }  // namespace
 
 Glossary Glossary::Load(const std::filesystem::path& path) {
   Glossary glossary;
   for (const SectionEntry& section : config::Load<GlossaryFile>(path).sections) {
     for (const TermEntry& term : section.terms) {
-      glossary.terms_.push_back(
-          {{term.english, term.german, term.latin}, section.english, term.printed, term.why});
+      glossary.terms_.push_back({term.names, section.english, term.printed, term.why});
     }
   }
   return glossary;
@@ -64,8 +69,9 @@ Glossary Glossary::Load(const std::filesystem::path& path) {
 
 std::vector<Term> Glossary::Find(const std::string& name) const {
   std::vector<Term> found;
-  std::copy_if(terms_.begin(), terms_.end(), std::back_inserter(found),
-               [&name](const Term& term) { return term.names.Match(name); });
+  std::copy_if(terms_.begin(), terms_.end(), std::back_inserter(found), [&name](const Term& term) {
+    return term.names.Match(name) || WithoutBrackets(term.names).Match(name);
+  });
   return found;
 }
 

@@ -21,7 +21,8 @@ class Glossary {
   static Glossary Load(const std::filesystem::path& path);
 
   const std::vector<Term>& terms() const { return terms_; }
-  /// All that are called so in any language; a name alone is no key.
+  /// All that are called so in any language, brackets at its end left out or not; a name alone is
+  /// no key.
   std::vector<Term> Find(const std::string& name) const;
 
  private:

@@ -11,26 +11,6 @@
 namespace deixis::anatomy {
 namespace {
 
-struct NameEntry {
-  std::string name, english, german, latin;
-
-  template <typename Visitor>
-  void Visit(Visitor& v) {
-    v("name", name);
-    v("english", english);
-    v("german", german);
-    v("latin", latin);
-  }
-  void Validate() const {
-    config::Faults faults;
-    faults.Require(!name.empty(), "name", "must not be empty");
-    faults.Require(!english.empty(), "english", "must not be empty");
-    faults.Require(!german.empty(), "german", "must not be empty");
-    faults.Require(!latin.empty(), "latin", "must not be empty");
-    faults.ThrowIfAny();
-  }
-};
-
 struct LimitEntry : JointLimit {
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -52,13 +32,13 @@ struct LimitEntry : JointLimit {
   }
 };
 
-bool IsNamed(const std::vector<NameEntry>& names, const std::string& name) {
+bool IsNamed(const std::vector<NamedTerm>& names, const std::string& name) {
   return std::any_of(names.begin(), names.end(),
-                     [&name](const NameEntry& entry) { return entry.name == name; });
+                     [&name](const NamedTerm& entry) { return entry.name == name; });
 }
 
 struct LimitsFile {
-  std::vector<NameEntry> joints, motions;
+  std::vector<NamedTerm> joints, motions;
   std::vector<LimitEntry> limits;
 
   template <typename Visitor>
@@ -84,7 +64,7 @@ struct LimitsFile {
   }
 
  private:
-  static void RequireOnce(const std::vector<NameEntry>& names, const std::string& key,
+  static void RequireOnce(const std::vector<NamedTerm>& names, const std::string& key,
                           config::Faults& faults) {
     std::set<std::string> seen;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -94,21 +74,13 @@ struct LimitsFile {
   }
 };
 
-std::vector<NamedTerm> ToTerms(const std::vector<NameEntry>& entries) {
-  std::vector<NamedTerm> terms;
-  for (const NameEntry& entry : entries) {
-    terms.push_back({entry.name, {entry.english, entry.german, entry.latin}});
-  }
-  return terms;
-}
-
 }  // namespace
 
 JointLimits JointLimits::Load(const std::filesystem::path& path) {
   const auto file = config::Load<LimitsFile>(path);
   JointLimits limits;
-  limits.joints_ = ToTerms(file.joints);
-  limits.motions_ = ToTerms(file.motions);
+  limits.joints_ = file.joints;
+  limits.motions_ = file.motions;
   limits.rows_.assign(file.limits.begin(), file.limits.end());
   return limits;
 }

@@ -25,12 +25,6 @@ inline auto EnumNames(Posture) {
                                                       {"flexed_90", Posture::kFlexedBy90}};
 }
 
-/// A joint or a motion: its key in the files, and what people call it.
-struct NamedTerm {
-  std::string name;
-  Names names;
-};
-
 /// One row of the source's list: how far a joint moves from the neutral-zero stance.
 struct JointLimit {
   std::string joint;

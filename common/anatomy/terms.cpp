@@ -2,6 +2,8 @@
 
 #include <cctype>
 
+#include "common/config/config.h"
+
 namespace deixis::anatomy {
 namespace {
 
@@ -48,6 +50,23 @@ bool Names::Match(const std::string& name) const {
   const std::string plain = Plain(name);
   return !plain.empty() &&
          (plain == Plain(english) || plain == Plain(german) || plain == Plain(latin));
+}
+
+void Names::Require(config::Faults& faults) const {
+  faults.Require(!english.empty(), "english", "must not be empty");
+  faults.Require(!german.empty(), "german", "must not be empty");
+  faults.Require(!latin.empty(), "latin", "must not be empty");
+}
+
+void NamedTerm::Require(config::Faults& faults) const {
+  faults.Require(!name.empty(), "name", "must not be empty");
+  names.Require(faults);
+}
+
+void NamedTerm::Validate() const {
+  config::Faults faults;
+  Require(faults);
+  faults.ThrowIfAny();
 }
 
 }  // namespace deixis::anatomy

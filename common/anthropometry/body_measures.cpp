@@ -84,8 +84,8 @@ struct PrintedEntry : PrintedValue {
   }
 };
 
-struct MeasureEntry {
-  std::string name, english, german, latin, definition;
+struct MeasureEntry : anatomy::NamedTerm {
+  std::string definition;
   MeasuringPosture posture = MeasuringPosture::kStanding;
   std::vector<SummandEntry> derived;
   std::vector<ColumnEntry> ansur;
@@ -96,10 +96,7 @@ struct MeasureEntry {
 
   template <typename Visitor>
   void Visit(Visitor& v) {
-    v("name", name);
-    v("english", english);
-    v("german", german);
-    v("latin", latin);
+    NamedTerm::Visit(v);
     v("posture", posture);
     v("definition", definition);
     v("derived", derived);
@@ -112,8 +109,7 @@ struct MeasureEntry {
   }
   void Validate() const {
     config::Faults faults;
-    faults.Require(!name.empty(), "name", "must not be empty");
-    faults.Require(!english.empty(), "english", "must not be empty");
+    NamedTerm::Require(faults);
     faults.Require(!definition.empty(), "definition", "must not be empty");
     faults.Require(!is_derived_only || !derived.empty(), "derived", "must be stated");
     faults.Require(!is_surveyed_only || !ansur.empty(), "ansur", "must be stated");
@@ -123,7 +119,7 @@ struct MeasureEntry {
     faults.ThrowIfAny();
   }
   BodyMeasure ToMeasure() const {
-    BodyMeasure measure{name, {english, german, latin}, definition, posture, {}, {}, {}, {}, {}};
+    BodyMeasure measure{name, names, definition, posture, {}, {}, {}, {}, {}};
     measure.derived.assign(derived.begin(), derived.end());
     measure.ansur.assign(ansur.begin(), ansur.end());
     measure.printed.assign(printed.begin(), printed.end());

@@ -35,6 +35,14 @@ double TwistOf(const Matrix3d& rotation) {
   return std::atan2(rotation(1, 0) - rotation(0, 1), rotation(0, 0) + rotation(1, 1));
 }
 
+Matrix3d RootFromParent(const BodyModel& model, int parent, const BodyPose& pose) {
+  Kinematics kinematics(model);
+  BodyPose upright = pose;
+  upright.frame_from_root = {};
+  kinematics.Update(upright);
+  return kinematics.limb(parent).linear();
+}
+
 }  // namespace
 
 VectorXd JointAngles(const Limb& limb, const Matrix3d& parent_from_limb) {
@@ -60,19 +68,45 @@ VectorXd JointAngles(const Limb& limb, const Matrix3d& parent_from_limb) {
   return angles;
 }
 
+Matrix3d ParentFromLimb(const Limb& limb, const Eigen::Ref<const VectorXd>& angles_rad) {
+  Vector3d swing = Vector3d::Zero();
+  Matrix3d turns = Matrix3d::Identity();
+  for (const DofKind kind : {DofKind::kSwing, DofKind::kHinge, DofKind::kTwist}) {
+    for (std::size_t k = 0; k < limb.dofs.size(); ++k) {
+      if (limb.dofs[k].kind != kind) continue;
+      const Vector3d turn = angles_rad[static_cast<Eigen::Index>(k)] * limb.dofs[k].axis;
+      if (kind == DofKind::kSwing) {
+        swing += turn;
+      } else {
+        turns = turns * RotationFrom(turn);
+      }
+    }
+  }
+  return limb.rest_in_parent.rotation.toRotationMatrix() * RotationFrom(swing) * turns;
+}
+
 void PointLimb(const BodyModel& model, int limb, const Vector3d& direction, BodyPose& pose) {
-  Kinematics kinematics(model);
-  BodyPose upright = pose;
-  upright.frame_from_root = {};
-  kinematics.Update(upright);
   const Limb& moved = model.limbs()[static_cast<std::size_t>(limb)];
   const Matrix3d root_from_rest =
-      kinematics.limb(moved.parent).linear() * moved.rest_in_parent.rotation.toRotationMatrix();
+      RootFromParent(model, moved.parent, pose) * moved.rest_in_parent.rotation.toRotationMatrix();
   const Vector3d there = root_from_rest.transpose() * direction.normalized();
-  const Matrix3d parent_from_limb =
-      moved.rest_in_parent.rotation.toRotationMatrix() * RotationFrom(SwingTo(there));
+  OrientLimb(model, limb, root_from_rest * RotationFrom(SwingTo(there)), pose);
+}
+
+void OrientLimb(const BodyModel& model, int limb, const Matrix3d& root_from_limb, BodyPose& pose) {
+  const Limb& moved = model.limbs()[static_cast<std::size_t>(limb)];
   pose.angles_rad.segment(model.first_angle(limb), static_cast<Eigen::Index>(moved.dofs.size())) =
-      JointAngles(moved, parent_from_limb);
+      JointAngles(moved, RootFromParent(model, moved.parent, pose).transpose() * root_from_limb);
+}
+
+BodyPose Standing(const BodyModel& model) {
+  Matrix3d hanging;  // z down, x forward.
+  hanging << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  BodyPose pose = RestPose(model);
+  for (const char* limb : {"right_upper_arm", "left_upper_arm", "right_thigh", "left_thigh"}) {
+    if (const auto index = model.Find(limb)) OrientLimb(model, *index, hanging, pose);
+  }
+  return pose;
 }
 
 }  // namespace deixis::body_model

@@ -11,8 +11,20 @@ namespace deixis::body_model {
 /// count.
 Eigen::VectorXd JointAngles(const Limb& limb, const Eigen::Matrix3d& parent_from_limb);
 
+/// The orientation of a limb in its parent with these angles of its joint, a rotation matrix.
+Eigen::Matrix3d ParentFromLimb(const Limb& limb,
+                               const Eigen::Ref<const Eigen::VectorXd>& angles_rad);
+
 /// Turns a limb so that it points along `direction`, in the frame of the pose's root, of any
 /// length; its twist becomes 0. Angles of other limbs stay.
 void PointLimb(const BodyModel& model, int limb, const Eigen::Vector3d& direction, BodyPose& pose);
+
+/// Turns a limb as nearly as its joint can to an orientation in the frame of the pose's root, a
+/// rotation matrix. Angles of other limbs stay.
+void OrientLimb(const BodyModel& model, int limb, const Eigen::Matrix3d& root_from_limb,
+                BodyPose& pose);
+
+/// The neutral-zero stance: upright, arms and legs hanging, their fronts forward.
+BodyPose Standing(const BodyModel& model);
 
 }  // namespace deixis::body_model

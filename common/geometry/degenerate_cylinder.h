@@ -43,7 +43,7 @@ Eigen::Vector3d SideNormal(const DegenerateCylinder& cylinder, double phi_rad, d
 bool IsInside(const DegenerateCylinder& cylinder, const Eigen::Vector3d& point_m);
 
 /// Exact for every point and shape, to rounding: beside, beyond the ends, over a disc, inside, on
-/// the axis (where several points are equally near it takes one, always the same). About 0.2 us;
+/// the axis (where several points are equally near it takes one, always the same). Some 0.5 us;
 /// for many points see closest_points.h.
 ClosestPoint FindClosest(const DegenerateCylinder& cylinder, const Eigen::Vector3d& point_m);
 

@@ -15,12 +15,17 @@ inline constexpr double kUnitTolerance = 1e-3;
 /// So close to 1 it is left as it is, so that what is sent on has the same bytes.
 inline constexpr double kUnitRounding = 1e-14;
 
-/// w x y z, made of length 1; throws Rejected("not_a_rotation") when it is far from it.
-inline Eigen::Quaterniond ToRotation(const double (&wxyz)[4]) {
+/// w x y z, bit for bit; throws Rejected("not_a_rotation") when its length is far from 1.
+inline Eigen::Quaterniond ToRotationAsSent(const double (&wxyz)[4]) {
   const auto values = ToVector<4>(wxyz);
-  const double excess = std::abs(values.norm() - 1.0);
-  if (!(excess <= kUnitTolerance)) throw Rejected("not_a_rotation");
-  const Eigen::Quaterniond rotation(values[0], values[1], values[2], values[3]);
+  if (!(std::abs(values.norm() - 1.0) <= kUnitTolerance)) throw Rejected("not_a_rotation");
+  return {values[0], values[1], values[2], values[3]};
+}
+
+/// The same, made of length 1.
+inline Eigen::Quaterniond ToRotation(const double (&wxyz)[4]) {
+  const Eigen::Quaterniond rotation = ToRotationAsSent(wxyz);
+  const double excess = std::abs(rotation.norm() - 1.0);
   return excess <= kUnitRounding ? rotation : rotation.normalized();
 }
 

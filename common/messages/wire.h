@@ -19,6 +19,7 @@ namespace deixis::messages {
 /// Bounds by meaning: more of these is no honest message.
 inline constexpr std::int32_t kMostObjects = 4096;
 inline constexpr std::int32_t kMostHands = 256;
+inline constexpr std::int32_t kMostBodies = 256;
 inline constexpr std::int32_t kMostCandidates = 4096;
 inline constexpr std::int32_t kMostChannels = 1024;
 inline constexpr std::int32_t kMostReasons = 256;
@@ -111,6 +112,18 @@ std::int8_t Number(Enum value) {
 
 inline double Within(double value, double largest) {
   if (std::abs(Finite(value)) > largest) throw Rejected("out_of_range");
+  return value;
+}
+
+/// A size or variance.
+inline double NotNegative(double value, double largest) {
+  if (Within(value, largest) < 0.0) throw Rejected("out_of_range");
+  return value;
+}
+
+/// An id, or a number of things that follow nowhere.
+inline std::int32_t AtLeast(std::int32_t least, std::int32_t value) {
+  if (value < least) throw Rejected("out_of_range");
   return value;
 }
 

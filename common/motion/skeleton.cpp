@@ -5,11 +5,13 @@
 namespace deixis::motion {
 namespace {
 
-bool IsTranslation(ChannelKind kind) { return kind <= ChannelKind::kZTranslation; }
-
 Eigen::Vector3d Axis(ChannelKind kind) {
   return Eigen::Vector3d::Unit(static_cast<Eigen::Index>(kind) % 3);
 }
+
+}  // namespace
+
+bool IsTranslation(ChannelKind kind) { return kind <= ChannelKind::kZTranslation; }
 
 Eigen::Isometry3d ParentFromJoint(const Joint& joint, const double* values) {
   Eigen::Vector3d offset_m = joint.offset_m;
@@ -23,10 +25,8 @@ Eigen::Isometry3d ParentFromJoint(const Joint& joint, const double* values) {
     }
   }
   return Eigen::Translation3d(offset_m) *
-         (joint.pre_rotation * turn * joint.pre_rotation.conjugate());
+         (joint.rest_rotation * joint.pre_rotation * turn * joint.pre_rotation.conjugate());
 }
-
-}  // namespace
 
 Eigen::Index Skeleton::ChannelCount() const {
   std::size_t count = 0;

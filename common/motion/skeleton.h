@@ -20,7 +20,10 @@ struct Joint {
   std::string name;
   int parent = -1;  ///< Index of the parent, less than the joint's own; -1: a root.
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();  ///< From the parent's joint, in its frame.
-  /// The frame C that the rotations turn about (ASF's `axis`): R = C M C^-1.
+  /// How the joint stands in its parent's frame when its channels are zero (the `orientation` of an
+  /// ASF file's root).
+  Eigen::Quaterniond rest_rotation = Eigen::Quaterniond::Identity();
+  /// The frame C that the rotations turn about (ASF's `axis`): R = rest C M C^-1.
   Eigen::Quaterniond pre_rotation = Eigen::Quaterniond::Identity();
   std::vector<ChannelKind> channels;  ///< Rotations multiply from left to right in this order.
   std::vector<Eigen::Vector3d> end_sites_m;  ///< Ends without a joint, in this joint's frame.
@@ -39,9 +42,15 @@ struct Clip {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> frames;
 };
 
-/// World pose of each joint, in the order of the skeleton. Translations add to the offset. Throws
-/// std::logic_error when `frame` has another length than the skeleton has channels, or when a
-/// parent does not stand before its child.
+/// Pose of a joint in its parent's frame; `values` holds its channels. Translations add to the
+/// offset.
+Eigen::Isometry3d ParentFromJoint(const Joint& joint, const double* values);
+
+bool IsTranslation(ChannelKind kind);
+
+/// World pose of each joint, in the order of the skeleton. Throws std::logic_error when
+/// `frame` has another length than the skeleton has channels, or when a parent does not stand
+/// before its child.
 std::vector<Eigen::Isometry3d> ForwardKinematics(const Skeleton& skeleton,
                                                  const Eigen::Ref<const Eigen::VectorXd>& frame);
 

@@ -7,6 +7,7 @@
 #include <sensor_msgs/CompressedImage.hpp>
 #include <sensor_msgs/Image.hpp>
 
+#include "common/messages/body_poses.h"
 #include "common/messages/camera_calibration.h"
 #include "common/messages/camera_pose.h"
 #include "common/messages/frame_transforms.h"
@@ -15,6 +16,7 @@
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
 #include "common/messages/objects.h"
+#include "common/messages/person_model.h"
 #include "common/messages/rgbd_image.h"
 #include "common/messages/service_status.h"
 #include "common/messages/stereo_calibration.h"
@@ -226,6 +228,47 @@ geometry::FrameTransforms Head(Timestamp time) {
           {time, "neck", "camera", {Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, 0.0, 0.0}}}};
 }
 
+// Trunk and an arm that turns by two swings and a twist.
+body_model::BodyModel TrunkAndArm() {
+  using body_model::DofKind;
+  body_model::Limb trunk;
+  trunk.name = "trunk";
+  trunk.shape = {0.1, 0.15, 0.1, 0.15, 0.5};
+  body_model::Limb arm = trunk;
+  arm.name = "arm";
+  arm.parent = 0;
+  arm.rest_in_parent = {Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.0, -0.2, 0.5}};
+  arm.dofs = {{"flexion", DofKind::kSwing, Eigen::Vector3d::UnitY(), -1.0, 3.0, 20.0, 500.0},
+              {"abduction", DofKind::kSwing, Eigen::Vector3d::UnitX(), -1.0, 3.0},
+              {"rotation", DofKind::kTwist, Eigen::Vector3d::UnitZ(), -1.5, 1.5}};
+  return {"sample", {trunk, arm}};
+}
+
+body_model::PersonModel Somebody(Timestamp time) {
+  body_model::PersonModel person{time, TrunkAndArm()};
+  person.person_id = 1;
+  person.sex = anthropometry::Sex::kFemale;
+  person.female_probability = 0.8;
+  person.stature_m = 1.7;
+  person.stature_variance_m2 = 0.0025;
+  return person;
+}
+
+body_model::BodyPoses Standing(Timestamp time) {
+  const body_model::BodyModel model = TrunkAndArm();
+  body_model::TrackedBody body;
+  body.person_id = 1;
+  body.state = body_model::BodyState::kTracked;
+  body.pose = RestPose(model);
+  body.pose.frame_from_root.translation_m.z() = 2.0;
+  body.rates_rad_per_s = Eigen::VectorXd::Zero(model.angle_count());
+  body.covariance = 0.01 * Eigen::MatrixXd::Identity(9, 9);
+  body_model::Kinematics kinematics(model);
+  PlaceLimbs(kinematics, body);
+  return {time,  "STEREO", "camera", "pose_fitter", body_model::Floor{{0.0, -1.0, 0.0}, 1.0},
+          {body}};
+}
+
 messages::ServiceStatus Status(Timestamp time) {
   messages::ServiceStatus status;
   status.time = time;
@@ -265,6 +308,8 @@ std::vector<GoodMessage> GoodMessages(std::int64_t utime_us) {
       {"dimos_colour", kColour, messages::EncodeWire(RobotRaw("rgb8", 3, utime_us))},
       {"dimos_depth_m", kDepth, messages::EncodeWire(RobotRaw("32FC1", 4, utime_us))},
       {"dimos_depth", kDepth, messages::EncodeWire(RobotRaw("16UC1", 2, utime_us))},
+      Of("body_model", "BODY_MODEL", Somebody(time)),
+      Of("body_poses", "BODY_POSES", Standing(time)),
       Of("hands", "HAND_TRACKS", OneHand(time)),
       Of("gesture_state", "GESTURE_STATE", State(time)),
       Of("gesture", "GESTURES", Pointing(time)),

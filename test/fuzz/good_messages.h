@@ -12,7 +12,7 @@ struct GoodMessage {
   std::vector<std::uint8_t> bytes;
 };
 
-/// One of each kind: pictures of every format, objects, hands, gestures, a calibration, a status.
+/// One of each kind: pictures of every format, objects, hands, bodies, gestures, a lens, a status.
 /// `utime_us` is their capture time.
 std::vector<GoodMessage> GoodMessages(std::int64_t utime_us = 1'000'000);
 

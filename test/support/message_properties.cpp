@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <deixis/message_types.hpp>
+#include <optional>
 #include <vector>
 
+#include "common/messages/body_poses.h"
 #include "common/messages/camera_calibration.h"
 #include "common/messages/camera_pose.h"
 #include "common/messages/depth_image.h"
@@ -13,6 +15,7 @@
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
 #include "common/messages/objects.h"
+#include "common/messages/person_model.h"
 #include "common/messages/rgbd_image.h"
 #include "common/messages/service_status.h"
 #include "common/messages/stereo_calibration.h"
@@ -49,14 +52,14 @@ std::string BrokenDecode(Bytes bytes) {
 template <typename Value, typename... Messages>
 bool RequireSoundCodec(Bytes bytes) {
   if (((messages::Fingerprint(bytes) != Messages::getHash()) && ...)) return false;
-  Decoded<Value> decoded;
+  std::optional<Decoded<Value>> decoded;
   try {
     decoded = Codec<Value>::Decode(bytes);
   } catch (const messages::Rejected&) {
     return false;
   }
   const auto again =
-      Codec<Value>::Encode(decoded.value, std::max(decoded.sequence, std::int64_t{0}));
+      Codec<Value>::Encode(decoded->value, std::max(decoded->sequence, std::int64_t{0}));
   Codec<Value>::Decode({again.data(), again.size()});
   return true;
 }
@@ -64,6 +67,7 @@ bool RequireSoundCodec(Bytes bytes) {
 /// How many take the message.
 int RequireSoundCodecs(Bytes bytes) {
   int takers = 0;
+  takers += RequireSoundCodec<body_model::BodyPoses, body_poses_t>(bytes);
   takers +=
       RequireSoundCodec<geometry::CameraCalibration, camera_calibration_t, sensor_msgs::CameraInfo>(
           bytes);
@@ -77,6 +81,7 @@ int RequireSoundCodecs(Bytes bytes) {
   takers += RequireSoundCodec<images::Image, bot_core::image_t, bot_core::images_t,
                               sensor_msgs::Image, sensor_msgs::CompressedImage>(bytes);
   takers += RequireSoundCodec<scene::Objects, objects_t>(bytes);
+  takers += RequireSoundCodec<body_model::PersonModel, body_model_t>(bytes);
   takers += RequireSoundCodec<images::StereoImage, bot_core::images_t>(bytes);
   takers += RequireSoundCodec<images::StereoPair, bot_core::images_t>(bytes);
   takers += RequireSoundCodec<images::EncodedStereoPair, bot_core::images_t>(bytes);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
+#include "common/body_model/joint_angles.h"
 #include "common/config/config.h"
 #include "common/program/command_line.h"
 #include "common/text/number_text.h"
-#include "services/anthropometer/core/drawing.h"
 
 namespace deixis::anthropometer {
 namespace {

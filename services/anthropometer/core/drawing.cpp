@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/body_model/joint_angles.h"
 #include "common/body_model/kinematics.h"
 
 namespace deixis::anthropometer {
@@ -132,16 +131,6 @@ cv::Mat DrawFrontAndSide(const BodyModel& model, const BodyPose& pose, int heigh
   cv::hconcat(Draw(model, pose, View::kFront, height_px, span_m),
               Draw(model, pose, View::kSide, height_px, span_m), both);
   return both;
-}
-
-BodyPose Standing(const BodyModel& model) {
-  BodyPose pose = RestPose(model);
-  for (const char* limb : {"right_upper_arm", "left_upper_arm", "right_thigh", "left_thigh"}) {
-    if (const auto index = model.Find(limb)) {
-      body_model::PointLimb(model, *index, -Vector3d::UnitZ(), pose);
-    }
-  }
-  return pose;
 }
 
 }  // namespace deixis::anthropometer

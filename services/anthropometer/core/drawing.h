@@ -18,7 +18,4 @@ cv::Mat Draw(const body_model::BodyModel& model, const body_model::BodyPose& pos
 cv::Mat DrawFrontAndSide(const body_model::BodyModel& model, const body_model::BodyPose& pose,
                          int height_px);
 
-/// Upright, arms and legs hanging.
-body_model::BodyPose Standing(const body_model::BodyModel& model);
-
 }  // namespace deixis::anthropometer

@@ -91,11 +91,8 @@ void AppendChain(const Limb& limb, int index, const std::string& parent, const s
   std::string from = parent;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const std::string part = name.side + letters[i] + "_" + stem + "_" + body_id;
-    const bool is_hinge =
-        chain[i].dof >= 0 &&
-        limb.dofs[static_cast<std::size_t>(chain[i].dof)].kind == body_model::DofKind::kHinge;
     const std::string child = i + 1 == chain.size() ? link : part;
-    joints.push_back({is_hinge ? link : part, from, child, index,
+    joints.push_back({chain[i].is_hinge ? link : part, from, child, index,
                       i == 0 ? limb.rest_in_parent : geometry::RigidTransform(), false, chain[i]});
     from = child;
   }

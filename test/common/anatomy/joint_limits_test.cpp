@@ -32,6 +32,34 @@ TEST(JointLimits, AreAllRowsOfTheSource) {
                                               {"ankle", 6}}));
 }
 
+// Sums of the source's column, counted twice: one wrong digit changes one of them.
+TEST(JointLimits, AddUpToTheSumsOfTheSource) {
+  double low_deg = 0.0, high_deg = 0.0;
+  for (const JointLimit& row : Shipped().rows()) {
+    low_deg += row.low_deg;
+    high_deg += row.high_deg;
+  }
+  EXPECT_EQ(low_deg, 2775.0);
+  EXPECT_EQ(high_deg, 2890.0);
+}
+
+TEST(JointLimits, HoldToBothSidesForTheSpineOnly) {
+  for (const JointLimit& row : Shipped().rows()) {
+    const bool is_spine = row.joint.find("spine") != std::string::npos;
+    const bool has_sides = row.motion == "lateral_flexion" || row.motion == "rotation";
+    EXPECT_EQ(row.is_to_both_sides, is_spine && has_sides) << row.joint << " " << row.motion;
+  }
+}
+
+TEST(JointLimits, SayWhyWhereTheyDifferFromWhatWasPrinted) {
+  int corrected = 0;
+  for (const JointLimit& row : Shipped().rows()) {
+    EXPECT_EQ(row.printed.empty(), row.why.empty()) << row.joint << " " << row.motion;
+    corrected += row.printed.empty() ? 0 : 1;
+  }
+  EXPECT_EQ(corrected, 13);  // Vental 3, refelexion, outside rotation, defection 6, the knee 2.
+}
+
 TEST(JointLimits, KeepRangesAsRanges) {
   const JointLimit& wrist = Shipped().At("wrist", Posture::kAny, "dorsal_extension");
   EXPECT_EQ(wrist.low_deg, 40.0);

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "common/anthropometry/person_estimate.h"
+#include "common/body_model/body_plan.h"
+#include "common/body_model/joint_angles.h"
 #include "common/body_model/kinematics.h"
 
 namespace deixis::body_model {
@@ -12,6 +17,8 @@ namespace deixis::body_model {
 using Eigen::Vector3d;
 
 namespace {
+
+const std::string kConfig = DEIXIS_SOURCE_DIR "/config/";
 
 BodyPose Moved(BodyPose pose, int column, double step) {
   if (column < 3) {
@@ -62,6 +69,27 @@ std::vector<Limb> ArmAndHead() {
   limbs[3].dofs = {Dof("flexion", DofKind::kSwing, Vector3d::UnitX(), -1.0, 1.3),
                    Dof("deviation", DofKind::kSwing, Vector3d::UnitY(), -0.4, 0.6)};
   return limbs;
+}
+
+std::vector<Person> FourPeople() {
+  using anthropometry::Sex;
+  return {{Sex::kFemale, 1.50}, {Sex::kFemale, 1.68}, {Sex::kMale, 1.80}, {Sex::kMale, 2.00}};
+}
+
+BodyModel Shipped(const std::string& name, const Person& person) {
+  static const auto populations =
+      anthropometry::Populations::Load(kConfig + "kinematics/population.yaml");
+  return Build(LoadBodyPlan(kConfig + "body_models/" + name + ".yaml"),
+               SizesOf(populations, person.sex, person.stature_m));
+}
+
+std::vector<std::string> ShippedNames() {
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(kConfig + "body_models")) {
+    if (file.path().extension() == ".yaml") names.push_back(file.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 BodyPose RandomPose(const BodyModel& model, std::mt19937& random) {

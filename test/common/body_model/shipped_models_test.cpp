@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "common/anthropometry/person_estimate.h"
-#include "common/body_model/body_plan.h"
 #include "common/body_model/joint_angles.h"
 #include "common/body_model/kinematics.h"
 #include "test/common/body_model/body_samples.h"
@@ -13,65 +11,43 @@
 namespace deixis::body_model {
 namespace {
 
-using anthropometry::Populations;
-using anthropometry::Sex;
 using Eigen::Vector3d;
-
-const std::string kConfig = DEIXIS_SOURCE_DIR "/config/";
-
-BodyModel Shipped(const std::string& name, Sex sex, double stature_m) {
-  static const Populations populations = Populations::Load(kConfig + "kinematics/population.yaml");
-  return Build(LoadBodyPlan(kConfig + "body_models/" + name + ".yaml"),
-               SizesOf(populations, sex, stature_m));
-}
-
-/// Upright, arms hanging, feet on the floor.
-BodyPose Standing(const BodyModel& model) {
-  BodyPose pose = RestPose(model);
-  for (const char* side : {"right_", "left_"}) {
-    if (const auto arm = model.Find(side + std::string("upper_arm"))) {
-      PointLimb(model, *arm, -Vector3d::UnitZ(), pose);
-    }
-    if (const auto leg = model.Find(side + std::string("thigh"))) {
-      PointLimb(model, *leg, -Vector3d::UnitZ(), pose);
-    }
-  }
-  return pose;
-}
-
-struct Person {
-  Sex sex;
-  double stature_m;
-};
 
 class ShippedModels : public testing::TestWithParam<Person> {};
 
 TEST_P(ShippedModels, HaveTheLimbsAndAnglesOfTheirSources) {
-  const auto [sex, stature_m] = GetParam();
-  EXPECT_EQ(Shipped("upper_body", sex, stature_m).limb_count(), 6);
-  EXPECT_EQ(Shipped("whole_body", sex, stature_m).limb_count(), 10);
-  EXPECT_EQ(Shipped("whole_body_detailed", sex, stature_m).limb_count(), 19);
-  const BodyModel arm = Shipped("right_arm", sex, stature_m);
+  EXPECT_EQ(Shipped("upper_body", GetParam()).limb_count(), 6);
+  EXPECT_EQ(Shipped("whole_body", GetParam()).limb_count(), 10);
+  EXPECT_EQ(Shipped("whole_body_detailed", GetParam()).limb_count(), 19);
+  const BodyModel arm = Shipped("right_arm", GetParam());
   EXPECT_EQ(6 + arm.angle_count(), 10);
   EXPECT_TRUE(arm.limbs()[static_cast<std::size_t>(*arm.Find("right_hand"))].dofs.empty());
   EXPECT_TRUE(arm.limbs()[static_cast<std::size_t>(*arm.Find("head"))].dofs.empty());
 }
 
+TEST_P(ShippedModels, StandUprightWithHangingArms) {
+  const BodyModel model = Shipped("whole_body_detailed", GetParam());
+  Kinematics kinematics(model);
+  kinematics.Update(Standing(model));
+  for (const char* limb : {"right_upper_arm", "left_lower_arm", "right_thigh", "left_shank"}) {
+    const Vector3d along = kinematics.limb(*model.Find(limb)).linear().col(2);
+    EXPECT_LE((along + Vector3d::UnitZ()).norm(), 1e-9) << limb;
+  }
+}
+
 TEST_P(ShippedModels, AreAsTallAsThePerson) {
-  const auto [sex, stature_m] = GetParam();
-  const BodyModel model = Shipped("whole_body_detailed", sex, stature_m);
+  const BodyModel model = Shipped("whole_body_detailed", GetParam());
   Kinematics kinematics(model);
   kinematics.Update(Standing(model));
   const int foot = *model.Find("right_foot"), head = *model.Find("head");
   const auto& sole = model.limbs()[static_cast<std::size_t>(foot)].shape;
   const Vector3d under_foot =
       kinematics.limb(foot) * Vector3d(sole.centre0_m.x() - sole.a0_m, 0.0, 0.0);
-  EXPECT_NEAR(kinematics.distal_m(head).z() - under_foot.z(), stature_m, 0.03);
+  EXPECT_NEAR(kinematics.distal_m(head).z() - under_foot.z(), GetParam().stature_m, 0.03);
 }
 
 TEST_P(ShippedModels, SpreadTheirArmsAsFarAsPeopleDo) {
-  const auto [sex, stature_m] = GetParam();
-  const BodyModel model = Shipped("whole_body_detailed", sex, stature_m);
+  const BodyModel model = Shipped("whole_body_detailed", GetParam());
   BodyPose pose = RestPose(model);
   PointLimb(model, *model.Find("right_upper_arm"), -Vector3d::UnitY(), pose);
   PointLimb(model, *model.Find("left_upper_arm"), Vector3d::UnitY(), pose);
@@ -80,12 +56,11 @@ TEST_P(ShippedModels, SpreadTheirArmsAsFarAsPeopleDo) {
   const double span_m = (kinematics.distal_m(*model.Find("right_hand")) -
                          kinematics.distal_m(*model.Find("left_hand")))
                             .norm();
-  EXPECT_NEAR(span_m, 1.0 * stature_m, 0.05);
+  EXPECT_NEAR(span_m, GetParam().stature_m, 0.05);
 }
 
 TEST_P(ShippedModels, AreMirrorImages) {
-  const auto [sex, stature_m] = GetParam();
-  const BodyModel model = Shipped("whole_body_detailed", sex, stature_m);
+  const BodyModel model = Shipped("whole_body_detailed", GetParam());
   Kinematics kinematics(model);
   kinematics.Update(Standing(model));
   for (const char* limb :
@@ -97,8 +72,7 @@ TEST_P(ShippedModels, AreMirrorImages) {
 }
 
 TEST_P(ShippedModels, BendAsPeopleDoWhenTheirAnglesGrow) {
-  const auto [sex, stature_m] = GetParam();
-  const BodyModel model = Shipped("whole_body_detailed", sex, stature_m);
+  const BodyModel model = Shipped("whole_body_detailed", GetParam());
   const auto moved = [&](const std::string& limb, int dof, const std::string& end) {
     BodyPose pose = Standing(model);
     Kinematics kinematics(model);
@@ -125,17 +99,14 @@ TEST_P(ShippedModels, BendAsPeopleDoWhenTheirAnglesGrow) {
 }
 
 TEST_P(ShippedModels, HaveJacobiansThatAreDerivatives) {
-  const auto [sex, stature_m] = GetParam();
   std::mt19937 random(8);
   for (const char* name : {"upper_body", "whole_body", "whole_body_detailed", "right_arm"}) {
-    const BodyModel model = Shipped(name, sex, stature_m);
+    const BodyModel model = Shipped(name, GetParam());
     for (int i = 0; i < 3; ++i) ExpectDerivatives(model, RandomPose(model, random));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(People, ShippedModels,
-                         testing::Values(Person{Sex::kFemale, 1.50}, Person{Sex::kFemale, 1.68},
-                                         Person{Sex::kMale, 1.80}, Person{Sex::kMale, 2.00}));
+INSTANTIATE_TEST_SUITE_P(People, ShippedModels, testing::ValuesIn(FourPeople()));
 
 }  // namespace
 }  // namespace deixis::body_model

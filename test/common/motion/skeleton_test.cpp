@@ -52,6 +52,17 @@ TEST(ForwardKinematics, AgreesWithProductsOfRotationsByHand) {
   EXPECT_TRUE(poses[2].translation().isApprox(elbow_m + elbow * Vector3d(0.25, 0.0, 0.0), 1e-12));
 }
 
+TEST(ForwardKinematics, StandsAtRestAsTheRestRotationSays) {
+  Skeleton arm = Arm();
+  arm.joints[0].rest_rotation = AngleAxisd(0.9, Vector3d::UnitY());
+  const Matrix3d rest = AngleAxisd(0.9, Vector3d::UnitY()).toRotationMatrix();
+  const auto poses = ForwardKinematics(arm, Eigen::VectorXd::Zero(7));
+  EXPECT_TRUE(poses[0].linear().isApprox(rest, 1e-12));
+  EXPECT_TRUE(poses[2].translation().isApprox(rest * Vector3d(0.55, 0.1, -0.2), 1e-12));
+  const Matrix3d turned = ForwardKinematics(Arm(), Frame())[0].linear();
+  EXPECT_TRUE(ForwardKinematics(arm, Frame())[0].linear().isApprox(rest * turned, 1e-12));
+}
+
 TEST(ForwardKinematics, RefusesAFrameOfAnotherLength) {
   EXPECT_THROW(ForwardKinematics(Arm(), Frame().head(6)), std::logic_error);
 }

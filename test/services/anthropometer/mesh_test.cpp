@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "services/anthropometer/core/drawing.h"
+#include "common/body_model/joint_angles.h"
 #include "services/anthropometer/core/solid.h"
 #include "test/services/anthropometer/person.h"
 

@@ -148,13 +148,13 @@ std::string MadeUpSurvey(double mean_mm) {
 
 TEST(Evaluation, FindsTheSpreadThatTheSurveyHas) {
   const test::TemporaryFolder folder;
-  const auto file =
-      folder.Write("m.yaml",
-                   "measures:\n"
-                   "  - {name: kph, english: a, definition: a, is_surveyed_only: true,"
-                   " ansur: [{of: stature}]}\n"
-                   "  - {name: oal, english: b, definition: b, is_surveyed_only: true,"
-                   " ansur: [{of: acromionradialelength}]}\n");
+  const auto file = folder.Write(
+      "m.yaml",
+      "measures:\n"
+      "  - {name: kph, english: a, german: a, latin: a, definition: a, is_surveyed_only: true,"
+      " ansur: [{of: stature}]}\n"
+      "  - {name: oal, english: b, german: b, latin: b, definition: b, is_surveyed_only: true,"
+      " ansur: [{of: acromionradialelength}]}\n");
   const BodyMeasures measures = BodyMeasures::Load({file});
   const Surveys surveys{Survey::Read(folder.Write("f.csv", MadeUpSurvey(1650.0))),
                         Survey::Read(folder.Write("m.csv", MadeUpSurvey(1780.0)))};

@@ -7,9 +7,9 @@
 #include <random>
 #include <set>
 
+#include "common/body_model/joint_angles.h"
 #include "common/body_model/kinematics.h"
 #include "common/config/config.h"
-#include "services/anthropometer/core/drawing.h"
 #include "test/services/anthropometer/person.h"
 
 namespace deixis::anthropometer {

@@ -12,5 +12,6 @@ SUBCOMMANDS: dict[str, Command] = {
     "events": Command(f"{_PACKAGE}.events", "what is named when, on recordings of real people"),
     "hands": Command(f"{_PACKAGE}.hands", "the hand tracker's error, misses and false tracks"),
     "live": Command(f"{_PACKAGE}.live", "loss, age, CPU and memory of the chain at camera rate"),
+    "motion": Command(f"{_PACKAGE}.motion", "what the limits of joints say of recorded motion"),
     "pointing": Command(f"{_PACKAGE}.pointing", "which pointing gestures are recognised, and when"),
 }

@@ -1,0 +1,131 @@
+#include "common/retargeting/skeleton_map.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "common/config/config.h"
+
+namespace deixis::retargeting {
+namespace {
+
+constexpr const char* kSide = "{side}";
+
+std::string WithSide(std::string name, const std::string& side) {
+  const auto at = name.find(kSide);
+  if (at != std::string::npos) name.replace(at, std::string(kSide).size(), side);
+  return name;
+}
+
+/// Lower case, without what stands before a colon.
+std::string Plain(const std::string& name) {
+  std::string plain = name.substr(name.rfind(':') + 1);
+  std::transform(plain.begin(), plain.end(), plain.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return plain;
+}
+
+int FindJoint(const motion::Skeleton& skeleton, const std::string& name) {
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+    if (Plain(skeleton.joints[i].name) == Plain(name)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+DrivenLimb BindOne(const LimbSource& source, const motion::Skeleton& skeleton,
+                   const std::string& limb_prefix, const std::string& side) {
+  const auto find = [&](const std::string& name) {
+    return name.empty() ? -1 : FindJoint(skeleton, WithSide(name, side));
+  };
+  DrivenLimb driven;
+  driven.limb = limb_prefix + source.limb;
+  driven.after = source.after;
+  driven.joint = find(source.joint);
+  driven.starts_at = source.starts_at.empty() ? driven.joint : find(source.starts_at);
+  driven.ends_at = find(source.ends_at);
+  driven.stance = source.stance;
+  driven.is_aimed = source.is_aimed;
+  driven.is_straight = source.is_straight;
+  return driven;
+}
+
+bool HasBothSides(const std::vector<DrivenLimb>& limbs) {
+  const auto has = [&limbs](const std::string& name) {
+    return std::any_of(limbs.begin(), limbs.end(),
+                       [&name](const DrivenLimb& driven) { return driven.limb == name; });
+  };
+  return (has("right_thigh") && has("left_thigh")) ||
+         (has("right_upper_arm") && has("left_upper_arm"));
+}
+
+std::string JointsOf(const motion::Skeleton& skeleton) {
+  constexpr std::size_t kMost = 60;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(skeleton.joints.size(), kMost); ++i) {
+    names += (i == 0 ? "" : ", ") + skeleton.joints[i].name;
+  }
+  return names + (skeleton.joints.size() > kMost ? " ..." : "");
+}
+
+}  // namespace
+
+void LimbSource::Validate() const {
+  config::Faults faults;
+  faults.Require(!limb.empty(), "limb", "must not be empty");
+  faults.Require(!joint.empty(), "joint", "must not be empty");
+  faults.Require(side == Sides::kOnce || joint.find(kSide) != std::string::npos, "joint",
+                 "must hold {side} of a limb on both sides");
+  faults.ThrowIfAny();
+}
+
+SkeletonMap LoadSkeletonMap(const std::filesystem::path& path) {
+  return config::Load<SkeletonMap>(path);
+}
+
+std::vector<SkeletonMap> LoadSkeletonMaps(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code fault;
+  for (std::filesystem::directory_iterator at(folder, fault), end; at != end; at.increment(fault)) {
+    if (at->path().extension() == ".yaml") files.push_back(at->path());
+  }
+  if (fault) throw config::ConfigError(folder.string() + ": " + fault.message());
+  if (files.empty()) throw config::ConfigError(folder.string() + ": holds no maps of skeletons");
+  std::sort(files.begin(), files.end());
+  std::vector<SkeletonMap> maps;
+  for (const std::filesystem::path& file : files) maps.push_back(LoadSkeletonMap(file));
+  return maps;
+}
+
+std::vector<DrivenLimb> Bind(const SkeletonMap& map, const motion::Skeleton& skeleton) {
+  std::vector<DrivenLimb> limbs;
+  const auto add = [&](const LimbSource& source, const char* prefix, const std::string& side) {
+    DrivenLimb driven = BindOne(source, skeleton, prefix, side);
+    if (driven.joint >= 0 && driven.starts_at >= 0) limbs.push_back(std::move(driven));
+  };
+  for (const LimbSource& source : map.limbs) {
+    if (source.side == Sides::kOnce) {
+      add(source, "", "");
+    } else {
+      add(source, "right_", map.right);
+      add(source, "left_", map.left);
+    }
+  }
+  return limbs;
+}
+
+const SkeletonMap& BestMap(const std::vector<SkeletonMap>& maps, const motion::Skeleton& skeleton) {
+  const SkeletonMap* best = nullptr;
+  std::size_t most = 0;
+  for (const SkeletonMap& map : maps) {
+    const auto limbs = Bind(map, skeleton);
+    if (limbs.size() <= most || !HasBothSides(limbs)) continue;
+    most = limbs.size();
+    best = &map;
+  }
+  if (best != nullptr) return *best;
+  throw config::ConfigError(
+      "no file of config/skeletons names both thighs or upper arms of this skeleton; its "
+      "joints: " +
+      JointsOf(skeleton) + "; describe them in a file of config/skeletons");
+}
+
+}  // namespace deixis::retargeting

@@ -1,0 +1,68 @@
+#include "services/anthropometer/motion_evaluation/recordings.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "common/anthropometry/person_estimate.h"
+#include "common/body_model/body_plan.h"
+#include "common/config/config.h"
+#include "common/motion/read_clip.h"
+
+namespace deixis::anthropometer {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ExtensionOf(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return extension;
+}
+
+body_model::BodyModel AveragePerson(const std::string& model) {
+  const auto populations =
+      anthropometry::Populations::Load(config::FindConfig("kinematics/population.yaml"));
+  const auto plan = body_model::LoadBodyPlan(config::FindConfig("body_models/" + model + ".yaml"));
+  return Build(plan, EstimatePerson(populations, {}).Sizes_m());
+}
+
+}  // namespace
+
+std::vector<fs::path> FindMotionFiles(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code fault;
+  for (fs::recursive_directory_iterator at(folder, fault), end; at != end; at.increment(fault)) {
+    const std::string extension = ExtensionOf(at->path());
+    if (extension == ".bvh" || extension == ".amc") files.push_back(at->path());
+  }
+  if (fault) throw config::ConfigError(folder.string() + ": " + fault.message());
+  if (files.empty()) throw config::ConfigError(folder.string() + " holds no .bvh or .amc file");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string ActorOf(const fs::path& file) {
+  if (ExtensionOf(file) == ".amc") return motion::FindAsf(file).stem().string();
+  const std::string stem = file.stem().string();
+  return stem.substr(0, stem.rfind('_'));
+}
+
+RecordingReader::RecordingReader(const std::string& model, double amc_frame_rate_hz)
+    : maps_(
+          retargeting::LoadSkeletonMaps(config::FindConfig("skeletons/deixis.yaml").parent_path())),
+      average_(AveragePerson(model)),
+      amc_frame_rate_hz_(amc_frame_rate_hz) {}
+
+retargeting::Retargeted RecordingReader::Read(const fs::path& file) const {
+  motion::ClipOptions options;
+  options.amc_frame_rate_hz = amc_frame_rate_hz_;
+  const motion::Clip clip = motion::ReadClip(file, options);
+  try {
+    return Retarget(clip, BestMap(maps_, clip.skeleton), average_);
+  } catch (const config::ConfigError& error) {
+    throw config::ConfigError(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace deixis::anthropometer

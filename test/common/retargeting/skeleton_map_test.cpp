@@ -1,0 +1,76 @@
+#include "common/retargeting/skeleton_map.h"
+
+#include <gmock/gmock.h>
+
+#include "common/config/config.h"
+#include "test/support/temporary_folder.h"
+
+namespace deixis::retargeting {
+namespace {
+
+SkeletonMap Shipped(const std::string& name) {
+  return LoadSkeletonMap(DEIXIS_SOURCE_DIR "/config/skeletons/" + name + ".yaml");
+}
+
+motion::Skeleton Named(const std::vector<std::string>& names) {
+  motion::Skeleton skeleton;
+  for (const std::string& name : names) {
+    motion::Joint joint;
+    joint.name = name;
+    joint.parent = static_cast<int>(skeleton.joints.size()) - 1;
+    skeleton.joints.push_back(joint);
+  }
+  return skeleton;
+}
+
+std::vector<std::string> LimbsOf(const std::vector<DrivenLimb>& driven) {
+  std::vector<std::string> names;
+  for (const DrivenLimb& limb : driven) names.push_back(limb.limb);
+  return names;
+}
+
+TEST(SkeletonMap, BindsBothSidesByTheirNames) {
+  const auto driven = Bind(Shipped("biovision"), Named({"LeftArm", "RightArm", "RightForeArm"}));
+  EXPECT_THAT(LimbsOf(driven), testing::UnorderedElementsAre("left_upper_arm", "right_upper_arm",
+                                                             "right_lower_arm"));
+}
+
+TEST(SkeletonMap, TakesNamesWithAPrefixAndInAnyCase) {
+  const auto driven = Bind(Shipped("biovision"), Named({"mixamorig:Hips", "mixamorig:LEFTUPLEG"}));
+  EXPECT_THAT(LimbsOf(driven), testing::UnorderedElementsAre("pelvis", "left_thigh"));
+}
+
+TEST(SkeletonMap, IsChosenByMostLimbs) {
+  const std::vector<SkeletonMap> maps{Shipped("acclaim"), Shipped("biovision"), Shipped("deixis")};
+  EXPECT_EQ(BestMap(maps, Named({"root", "lfemur", "rfemur"})).name, "acclaim");
+  EXPECT_EQ(BestMap(maps, Named({"Hips", "LeftUpLeg", "RightUpLeg"})).name, "biovision");
+  EXPECT_EQ(BestMap(maps, Named({"pelvis", "left_thigh", "right_thigh"})).name, "deixis");
+}
+
+TEST(SkeletonMap, ListsTheJointsThatNoMapKnows) {
+  const std::vector<SkeletonMap> maps{Shipped("acclaim")};
+  try {
+    BestMap(maps, Named({"Bip01", "Bip01_Spine"}));
+    FAIL();
+  } catch (const config::ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("Bip01_Spine"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("config/skeletons"));
+  }
+}
+
+TEST(SkeletonMap, RefusesALimbOnBothSidesWithOneJoint) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.Write("map.yaml",
+                                 "name: m\nright: r\nleft: l\nlimbs:\n"
+                                 "  - {limb: hand, side: both, joint: hand}\n");
+  try {
+    LoadSkeletonMap(path);
+    FAIL();
+  } catch (const config::ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("map.yaml"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("{side}"));
+  }
+}
+
+}  // namespace
+}  // namespace deixis::retargeting
