@@ -87,6 +87,7 @@ void AddPoseOptions(CLI::App& app, Arguments& arguments, std::vector<std::string
 }
 
 void AddFileOptions(CLI::App& app, Arguments& arguments) {
+  app.add_option("--png", arguments.png, "Draw the body with the ranges of its joints");
   app.add_option("--urdf", arguments.urdf, "Write the model as URDF to this file");
   app.add_option("--body-id", arguments.body_id, "Ends all names of the URDF, as in REP 155")
       ->check([](const std::string& id) {

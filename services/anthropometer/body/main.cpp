@@ -1,17 +1,24 @@
 // Tells of the body model of one person: sizes, limbs and joint limits as JSON; draws it; writes it
 // as URDF and as a mesh.
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
 #include <iostream>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <vector>
 
 #include "common/anthropometry/person_estimate.h"
 #include "common/body_model/body_plan.h"
 #include "common/config/config.h"
 #include "common/program/command_line.h"
+#include "common/range_of_motion/range_plan.h"
+#include "common/text/number_text.h"
 #include "services/anthropometer/body/arguments.h"
 #include "services/anthropometer/core/body_report.h"
 #include "services/anthropometer/core/json_text.h"
 #include "services/anthropometer/core/mesh.h"
+#include "services/anthropometer/core/range_picture.h"
 #include "services/anthropometer/core/urdf.h"
 #include "services/anthropometer/core/whole_file.h"
 
@@ -19,6 +26,8 @@ namespace deixis::anthropometer {
 namespace {
 
 using config::FindConfig;
+
+constexpr int kPicture_px = 1200;  // Height; twice as wide.
 
 Person PersonOf(const Arguments& arguments) {
   const auto populations =
@@ -51,6 +60,20 @@ std::string Told(const Person& person, const body_model::BodyModel& model,
   return JsonObject(parts);
 }
 
+void WritePicture(const Person& person, const body_model::BodyModel& model,
+                  const body_model::BodyPose& pose, const Arguments& arguments) {
+  const auto limits = ShippedLimits();
+  const range_of_motion::RangeOfMotion range(
+      model, range_of_motion::LoadRangePlan(FindConfig("kinematics/range_of_motion.yaml")), limits);
+  const std::string title = model.name() + ", " +
+                            (person.sex == anthropometry::Sex::kFemale ? "female" : "male") + ", " +
+                            text::NumberText(std::round(1000.0 * person.stature_m) / 1000.0) + " m";
+  const PictureWords words{&limits, arguments.request.language, title};
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", DrawWithRanges(model, pose, range, words, kPicture_px), png);
+  WriteWhole(arguments.png, {png.begin(), png.end()});
+}
+
 void Run(const Arguments& arguments) {
   const Person person = PersonOf(arguments);
   const auto model =
@@ -60,6 +83,7 @@ void Run(const Arguments& arguments) {
   const std::string told = Told(person, model, pose, arguments);
   if (!arguments.urdf.empty()) WriteWhole(arguments.urdf, UrdfOf(model, arguments.body_id));
   if (!arguments.ply.empty()) WriteWhole(arguments.ply, PlyOf(model, pose));
+  if (!arguments.png.empty()) WritePicture(person, model, pose, arguments);
   std::cout << told << "\n";
 }
 

@@ -14,7 +14,7 @@ from deixis_frontend.text_table import lines
 
 _STATURES_M = (1.2, 2.3)
 _PERCENTILES = (0.1, 99.9)
-_FILES = ("urdf", "ply")
+_FILES = ("png", "urdf", "ply")
 _PASSED_ON = ("sex", "stature", "percentile", "model", "joint", "measure", "language", "pose",
               "body_id")
 
@@ -38,6 +38,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="how the body is drawn and meshed (default: %(default)s)")
     parser.add_argument("--angle", action="append", default=[], metavar="LIMB.ANGLE=DEGREES",
                         help="then one angle of it, as right_lower_arm.flexion=90; again for more")
+    parser.add_argument("--png", type=Path, metavar="FILE",
+                        help="draw it, front and side, with the ranges of its joints")
     parser.add_argument("--urdf", type=Path, metavar="FILE", help="write the model as URDF")
     parser.add_argument("--body-id", default="default", metavar="ID",
                         help="ends all names of the URDF, as in REP 155 (default: %(default)s)")
