@@ -48,6 +48,13 @@ def test_one_joint_or_measure_is_found_by_its_name_in_any_language(
         assert (row["measure"], row["mm"]) == ("kph", 1680)
 
 
+def test_a_pose_is_held_against_what_is_possible_in_it(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*PERSON, "--joint", "elbow", "--angle", "left_lower_arm.flexion=120"]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ["left_elbow", "flexion", "30"] in rows
+    assert ["right_elbow", "extension", "10"] in rows
+
+
 def test_people_without_a_stature_are_of_their_percentile(capsys: pytest.CaptureFixture[str]) -> None:
     statures = []
     for options in (["--percentile", "5"], [], ["--percentile", "95"]):

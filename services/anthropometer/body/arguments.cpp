@@ -71,8 +71,10 @@ void AddPersonOptions(CLI::App& app, Arguments& arguments) {
 }
 
 void AddReportOptions(CLI::App& app, ReportRequest& request) {
-  app.add_option("--joint", request.joint, "Tell the limits of this joint only, in any language");
-  app.add_option("--measure", request.measure, "Tell this measure only, in any language");
+  app.add_option("--joint", request.joint, "Tell the limits of this joint only, in any language")
+      ->check(program::EmptyFault);
+  app.add_option("--measure", request.measure, "Tell this measure only, in any language")
+      ->check(program::EmptyFault);
   AddChoice(app, "--language", request.language, EnumNames(request.language), "Of the names");
 }
 

@@ -39,6 +39,12 @@ Person PersonOf(const Arguments& arguments) {
   return {arguments.sex, stature_m, SizesOf(populations, arguments.sex, stature_m)};
 }
 
+range_of_motion::RangeOfMotion RangeOf(const body_model::BodyModel& model,
+                                       const anatomy::JointLimits& limits) {
+  return {model, range_of_motion::LoadRangePlan(FindConfig("kinematics/range_of_motion.yaml")),
+          limits};
+}
+
 std::string Told(const Person& person, const body_model::BodyModel& model,
                  const body_model::BodyPose& pose, const Arguments& arguments) {
   const ReportRequest& request = arguments.request;
@@ -55,7 +61,9 @@ std::string Told(const Person& person, const body_model::BodyModel& model,
     parts.push_back({"urdf_joints_rad", JointValuesJson(model, pose, arguments.body_id)});
   }
   if (is_all || !request.joint.empty()) {
-    parts.push_back({"joint_limits", JointLimitsJson(ShippedLimits(), request)});
+    const auto limits = ShippedLimits();
+    parts.push_back({"joint_limits", JointLimitsJson(limits, request)});
+    parts.push_back({"posture", PostureJson(model, RangeOf(model, limits), pose, limits, request)});
   }
   return JsonObject(parts);
 }
@@ -63,14 +71,13 @@ std::string Told(const Person& person, const body_model::BodyModel& model,
 void WritePicture(const Person& person, const body_model::BodyModel& model,
                   const body_model::BodyPose& pose, const Arguments& arguments) {
   const auto limits = ShippedLimits();
-  const range_of_motion::RangeOfMotion range(
-      model, range_of_motion::LoadRangePlan(FindConfig("kinematics/range_of_motion.yaml")), limits);
   const std::string title = model.name() + ", " +
                             (person.sex == anthropometry::Sex::kFemale ? "female" : "male") + ", " +
                             text::NumberText(std::round(1000.0 * person.stature_m) / 1000.0) + " m";
   const PictureWords words{&limits, arguments.request.language, title};
   std::vector<std::uint8_t> png;
-  cv::imencode(".png", DrawWithRanges(model, pose, range, words, kPicture_px), png);
+  cv::imencode(".png", DrawWithRanges(model, pose, RangeOf(model, limits), words, kPicture_px),
+               png);
   WriteWhole(arguments.png, {png.begin(), png.end()});
 }
 

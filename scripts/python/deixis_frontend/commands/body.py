@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print(json.dumps(report, indent=2, ensure_ascii=False))
         return 0
-    print("\n".join(_text(report)))
+    print("\n".join(_text(report, with_posture=bool(arguments.angle))))
     for option in _FILES:
         if getattr(arguments, option) is not None:
             print(f"written: {getattr(arguments, option)}")
@@ -72,10 +72,12 @@ def _options(arguments: argparse.Namespace) -> list[str]:
     return options + [f"--angle={text}" for text in arguments.angle]
 
 
-def _text(report: dict[str, Any]) -> list[str]:
+def _text(report: dict[str, Any], *, with_posture: bool) -> list[str]:
     """The report as people read it: a heading and the tables that are there."""
     text = [f"{report['sex']}, {report['stature_m']:.3f} m, {report['model']}"]
     tables = {"measures": _measures, "limbs": _limbs, "joint_limits": _joint_limits}
+    if with_posture:
+        tables["posture"] = _posture
     for part, table in tables.items():
         if part in report:
             text += ["", *table(report[part])]
@@ -109,6 +111,13 @@ def _joint_limits(rows: list[dict[str, Any]]) -> list[str]:
     notes = [f"corrected: {row['joint_name']}, {row['motion_name']}: the source prints"
              f" \"{row['printed']}\": {row['why']}" for row in rows if row["printed"]]
     return table + ([""] if notes else []) + notes
+
+
+def _posture(joints: list[dict[str, Any]]) -> list[str]:
+    """How far each joint is from its limits in the pose."""
+    return lines([("in this pose", "nearest limit", "degrees left"),
+                  *((joint["joint"], limit["motion_name"], f"{limit['left_deg']:.0f}")
+                    for joint in joints for limit in joint["limits"])], left=2)
 
 
 def _degrees(row: dict[str, Any]) -> str:
