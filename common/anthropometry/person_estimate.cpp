@@ -72,6 +72,13 @@ Conditioned Condition(const Population& population, const Observations& observed
   return result;
 }
 
+/// The people of that sex who may be met, wherever their average lies.
+Population Met(const Populations& populations, Sex sex) {
+  Population met = populations.Of(sex);
+  met.covariance_m2 += populations.offset_m() * populations.offset_m().transpose();
+  return met;
+}
+
 double Logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 /// Share of the standard normal distribution below x.
@@ -103,8 +110,8 @@ std::map<std::string, double> PersonEstimate::Sizes_m() const {
 PersonEstimate EstimatePerson(const Populations& populations,
                               const std::vector<MeasuredLength>& lengths, std::optional<Sex> sex) {
   const Observations observed = Checked(populations, lengths);
-  const Conditioned female = Condition(populations.Of(Sex::kFemale), observed);
-  const Conditioned male = Condition(populations.Of(Sex::kMale), observed);
+  const Conditioned female = Condition(Met(populations, Sex::kFemale), observed);
+  const Conditioned male = Condition(Met(populations, Sex::kMale), observed);
   PersonEstimate estimate;
   estimate.measures = populations.measures();
   estimate.female_probability = sex ? (*sex == Sex::kFemale ? 1.0 : 0.0)
@@ -131,7 +138,9 @@ double StatureAt(const Populations& populations, Sex sex, double share) {
 }
 
 std::map<std::string, double> SizesOf(const Populations& populations, Sex sex, double stature_m) {
-  return EstimatePerson(populations, {{kStature, stature_m, kExact_m2}}, sex).Sizes_m();
+  const Populations tables(populations.measures(), populations.Of(Sex::kFemale),
+                           populations.Of(Sex::kMale));
+  return EstimatePerson(tables, {{kStature, stature_m, kExact_m2}}, sex).Sizes_m();
 }
 
 }  // namespace deixis::anthropometry

@@ -31,9 +31,12 @@ struct PersonEstimate {
 };
 
 /// From any lengths, none too, to stature, sex and every other measure: normal distributions per
-/// sex, conditioned on what was measured, weighed by how well they explain it; both sexes alike
-/// before. With `sex` only that one counts. Throws std::invalid_argument for a measure that the
-/// population lacks or lengths that are none.
+/// sex, conditioned on what was measured, weighed by how well they explain it. Assumes as many
+/// women as men; errors of the lengths that are normal and independent; and people whose average
+/// may differ from the tables' along Populations::offset_m by an unknown share, normal with
+/// variance 1 and the same for both sexes, which is marginalised: absolute size says less of the
+/// sex than proportions do. With `sex` only that one counts. Throws std::invalid_argument for a
+/// measure that the population lacks or lengths that are none.
 PersonEstimate EstimatePerson(const Populations& populations,
                               const std::vector<MeasuredLength>& lengths,
                               std::optional<Sex> sex = std::nullopt);
@@ -41,7 +44,8 @@ PersonEstimate EstimatePerson(const Populations& populations,
 /// The stature, metres, that a share of the people of one sex does not exceed, 0 < share < 1.
 double StatureAt(const Populations& populations, Sex sex, double share);
 
-/// The usual sizes, metres by measure, of people of one sex and of that stature.
+/// The usual sizes, metres by measure, of people of one sex and of that stature, as the tables have
+/// them: without Populations::offset_m.
 std::map<std::string, double> SizesOf(const Populations& populations, Sex sex, double stature_m);
 
 }  // namespace deixis::anthropometry

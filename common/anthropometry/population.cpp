@@ -67,16 +67,23 @@ struct PopulationEntry {
 
 struct PopulationsFile {
   std::vector<std::string> measures;
+  std::vector<double> offset_mm;
   PopulationEntry female, male;
 
   template <typename Visitor>
   void Visit(Visitor& v) {
     v("measures", measures);
+    v("offset_mm", offset_mm);
     v("female", female);
     v("male", male);
   }
   void Validate() const {
     config::Faults faults;
+    faults.Require(offset_mm.empty() || offset_mm.size() == measures.size(), "offset_mm",
+                   "must be as many as measures, or none");
+    faults.Require(std::all_of(offset_mm.begin(), offset_mm.end(),
+                               [](double mm) { return std::abs(mm) < 1000.0; }),
+                   "offset_mm", "must lie in -1000..1000");
     faults.Require(female.mean_mm.size() == measures.size(), "female.mean_mm",
                    "must be as many as measures");
     faults.Require(male.mean_mm.size() == measures.size(), "male.mean_mm",
@@ -124,23 +131,33 @@ bool IsOf(const Population& population, std::size_t measures) {
 
 }  // namespace
 
-Populations::Populations(std::vector<std::string> measures, Population female, Population male)
-    : measures_(std::move(measures)), female_(std::move(female)), male_(std::move(male)) {
-  if (!IsOf(female_, measures_.size()) || !IsOf(male_, measures_.size())) {
+Populations::Populations(std::vector<std::string> measures, Population female, Population male,
+                         Eigen::VectorXd offset_m)
+    : measures_(std::move(measures)),
+      female_(std::move(female)),
+      male_(std::move(male)),
+      offset_m_(std::move(offset_m)) {
+  const auto size = static_cast<Eigen::Index>(measures_.size());
+  if (offset_m_.size() == 0) offset_m_ = Eigen::VectorXd::Zero(size);
+  if (!IsOf(female_, measures_.size()) || !IsOf(male_, measures_.size()) ||
+      offset_m_.size() != size) {
     throw std::logic_error("Populations: not of " + std::to_string(measures_.size()) + " measures");
   }
 }
 
 Populations Populations::Load(const std::filesystem::path& path) {
   const auto file = config::Load<PopulationsFile>(path);
-  return {file.measures, file.female.ToPopulation(), file.male.ToPopulation()};
+  const Eigen::Map<const Eigen::VectorXd> offset_mm(
+      file.offset_mm.data(), static_cast<Eigen::Index>(file.offset_mm.size()));
+  return {file.measures, file.female.ToPopulation(), file.male.ToPopulation(),
+          kMetresPerMillimetre * offset_mm};
 }
 
 std::string Populations::ToYaml() const {
   std::string names;
   for (const std::string& measure : measures_) names += (names.empty() ? "" : ", ") + measure;
-  return "measures: [" + names + "]\nfemale:\n" + anthropometry::ToYaml(female_) + "male:\n" +
-         anthropometry::ToYaml(male_);
+  return "measures: [" + names + "]\noffset_mm: " + Row("%.1f", 1000.0 * offset_m_) +
+         "\nfemale:\n" + anthropometry::ToYaml(female_) + "male:\n" + anthropometry::ToYaml(male_);
 }
 
 std::optional<int> Populations::Find(const std::string& measure) const {

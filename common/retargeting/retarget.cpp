@@ -223,6 +223,14 @@ Vector3d BaseOrigin_m(const LimbPaths& paths, const BodyModel& model) {
   return *hips_m - paths.Orientation(0) * Vector3d(in_base.x(), 0.0, in_base.z());
 }
 
+/// Of its bone; of a limb that does not stand along it the part that goes its way.
+double LengthOf_m(const LimbPaths& paths, int limb) {
+  const auto end_m = paths.End_m(limb);
+  if (!end_m) return 0.0;
+  const Vector3d bone = *end_m - paths.Start_m(limb);
+  return paths.IsBone(limb) ? bone.norm() : bone.dot(paths.Orientation(limb).col(2));
+}
+
 /// Joint positions in their parents and lengths as in the file, means over its frames.
 std::vector<Limb> Measured(LimbPaths& paths, const BodyModel& model) {
   std::vector<Limb> limbs = model.limbs();
@@ -241,9 +249,7 @@ std::vector<Limb> Measured(LimbPaths& paths, const BodyModel& model) {
         offsets_m[i] +=
             share * (paths.Orientation(parent).transpose() * (paths.Start_m(limb) - from_m));
       }
-      if (limb > 0 && paths.IsBone(limb)) {
-        lengths_m[i] += share * (*paths.End_m(limb) - paths.Start_m(limb)).norm();
-      }
+      if (limb > 0) lengths_m[i] += share * LengthOf_m(paths, limb);
     }
   }
   for (std::size_t i = 0; i < limbs.size(); ++i) {

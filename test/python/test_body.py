@@ -81,11 +81,12 @@ def test_absurd_people_are_wrong_usage(options: str, hint: str,
     ("--measure tail", "there are kph (body height)"),
     ("--model tail", "body_models/tail.yaml"),
     ("--angle tail.flexion=3", "there are abdomen.lateral_flexion"),
-    ("--angle left_shank.flexion=200", "200 is beyond -10.."),
+    ("--angle left_shank.flexion=200", "200 is beyond -10..155 degrees"),
     ("--angle left_shank", "no LIMB.ANGLE=DEGREES"),
     ("--urdf /proc/none/body.urdf", "/proc/none/body.urdf cannot be written"),
     ("--png /proc/none/body.png", "/proc/none/body.png cannot be written"),
     ("--ply /", "--ply / is a folder"),
+    ("--motion walk.bvh", "--sex does not go with --motion"),
 ])
 def test_what_is_none_is_told_and_nothing_is_written(options: str, hint: str, tmp_path: Path,
                                                      capsys: pytest.CaptureFixture[str]) -> None:

@@ -18,6 +18,8 @@ COLUMNS = """abdominal stature sittingheight eyeheightsitting acromialheight sho
  suprasternaleheight tragiontopofhead bicepscircumferenceflexed forearmcircumferenceflexed wristcircumference
  thighcircumference lowerthighcircumference calfcircumference anklecircumference footbreadthhorizontal
  heelbreadth""".split()
+SHARES = {"stature": 1.0, "tibialheight": 0.27, "lateralmalleolusheight": 0.04, "buttockkneelength": 0.35,
+          "sittingheight": 0.52}
 
 
 @pytest.fixture
@@ -27,8 +29,7 @@ def survey(tmp_path: Path) -> Path:
         rows = [",".join(["SubjectId", *COLUMNS])]
         for person in range(40):
             stature = chance.gauss(mean, 60.0)
-            rows.append(",".join([str(person), *(str(stature if name == "stature" else 0.19 * stature)
-                                                 for name in COLUMNS)]))
+            rows.append(",".join([str(person), *(str(SHARES.get(name, 0.19) * stature) for name in COLUMNS)]))
         (tmp_path / f"ANSUR_II_{sex}_Public.csv").write_text("\n".join(rows) + "\n", encoding="ascii")
     return tmp_path
 
@@ -40,10 +41,27 @@ def test_figures_are_printed_and_written(survey: Path, capsys: pytest.CaptureFix
     assert lines[0] == "40 people, known: kph +- 1 mm"
     assert lines[-1].startswith("sex: ")
     report = json.loads((survey / "body.json").read_text(encoding="utf-8"))
-    rows = {row["measure"]: row for row in report["measures"]}
+    [only] = report["sets"]
+    assert only["given"] == ["kph"] and report["error_mm"] == 1.0
+    rows = {row["measure"]: row for row in only["measures"]}
     assert rows["kph"]["median_mm"] < 2.0
-    assert len(rows) == 52 and len(lines) == 2 + 52 + 1
-    assert report["sex"]["accuracy"] > 0.6
+    assert len(rows) == 52 and len(lines) == 2 + 52 + 2
+    assert rows["kph"]["median_mm"] < rows["kph"]["p90_mm"] < rows["kph"]["p95_mm"]
+    assert all(row["within_50"] <= row["within_90"] <= 1.0 for row in rows.values())
+    inferred = [row["within_90"] for row in only["measures"] if row["measure"] != "kph"]
+    assert only["inferred"]["within_90"] == pytest.approx(sum(inferred) / 51)
+    assert only["sex"]["accuracy"] > 0.6
+    assert 0.0 < only["sex"]["brier"] < 0.25
+
+
+def test_several_sets_are_measured_when_none_is_named(survey: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["evaluate", "body", "--data", str(survey), "--json", str(survey / "body.json")]) == 0
+    assert "40 people, known: nothing\n" in capsys.readouterr().out
+    sets = json.loads((survey / "body.json").read_text(encoding="utf-8"))["sets"]
+    assert [one["given"] for one in sets] == [[], ["kph"], ["kph", "oal", "ual"],
+                                              ["oal", "ual", "oslp", "usl", "biacromial_breadth"]]
+    assert sets[0]["sex"]["brier"] == 0.25  # One half of everybody.
+    assert sets[1]["sex"]["brier"] < 0.25
 
 
 def test_what_is_no_measure_or_no_survey_is_told(survey: Path, tmp_path: Path,

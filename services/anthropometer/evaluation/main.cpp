@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   fs::path data;
-  std::vector<std::string> given{"kph"};
+  std::vector<std::string> given;
   double error_mm = 10.0;
   fs::path population;
 };
@@ -27,7 +27,8 @@ Arguments Parse(int argc, char** argv) {
                "deixis-evaluate-body");
   app.set_version_flag("--version", "deixis-evaluate-body " DEIXIS_VERSION);
   app.add_option("--survey", arguments.data, "Folder with the tables of ANSUR II")->required();
-  app.add_option("--given", arguments.given, "Measures that are known of a person")->delimiter(',');
+  app.add_option("--given", arguments.given, "Measures that are known of a person (default: none)")
+      ->delimiter(',');
   app.add_option("--error", arguments.error_mm, "Their standard deviation, millimetres")
       ->check(CLI::Range(0.1, 200.0));
   app.add_option("--write-population", arguments.population,
@@ -53,21 +54,26 @@ void Write(const anthropometry::Populations& populations, const fs::path& file) 
          "# people of ANSUR II with odd numbers. Means and spreads are those of measures.yaml "
          "where\n"
          "# it has them; those of measures_ansur2.yaml are the survey's, means moved to the mean\n"
-         "# stature of measures.yaml by regression.\n"
+         "# stature of measures.yaml by regression. offset_mm is the mean, over both sexes, of "
+         "what\n"
+         "# these means have more than the survey's: one standard deviation of how people differ "
+         "from them.\n"
       << populations.ToYaml();
   if (!out.flush()) throw config::ConfigError(file.string() + ": cannot be written");
 }
 
 void Print(const PopulationScore& score) {
-  std::printf("measure,median_mm,p95_mm,stated_spread_mm,bias_mm,within_90\n");
+  std::printf("measure,median_mm,p90_mm,p95_mm,stated_spread_mm,bias_mm,within_50,within_90\n");
   for (const PredictionScore& row : score.predictions) {
-    std::printf("%s,%.1f,%.1f,%.1f,%.1f,%.3f\n", row.measure.c_str(), row.median_mm, row.p95_mm,
-                row.stated_spread_mm, row.bias_mm, row.share_within_90);
+    std::printf("%s,%.1f,%.1f,%.1f,%.1f,%.1f,%.3f,%.3f\n", row.measure.c_str(), row.median_mm,
+                row.p90_mm, row.p95_mm, row.stated_spread_mm, row.bias_mm, row.share_within_50,
+                row.share_within_90);
   }
   std::printf(
-      "\npeople,accuracy,sure_share,sure_accuracy,calibration_error\n%d,%.4f,%.4f,%.4f,%.4f\n",
+      "\npeople,accuracy,sure_share,sure_accuracy,calibration_error,brier\n%d,%.4f,%.4f,%.4f,%.4f,%"
+      ".4f\n",
       score.people, score.sex.accuracy, score.sex.sure_share, score.sex.sure_accuracy,
-      score.sex.calibration_error);
+      score.sex.calibration_error, score.sex.brier);
 }
 
 void Run(const Arguments& arguments) {

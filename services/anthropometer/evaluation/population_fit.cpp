@@ -46,8 +46,14 @@ void MoveToTheTables(const std::vector<const BodyMeasure*>& measures, Sex sex, P
   fit.mean_m += fit.covariance_m2.col(place) / fit.covariance_m2(place, place) * taller_m;
 }
 
-Population Fit(const std::vector<const BodyMeasure*>& measures, const Survey& survey, Sex sex,
-               Half half) {
+/// Of one sex: its distribution, and how far its means are from the survey's.
+struct SexFit {
+  Population population;
+  Eigen::VectorXd moved_m;
+};
+
+SexFit Fit(const std::vector<const BodyMeasure*>& measures, const Survey& survey, Sex sex,
+           Half half) {
   const Eigen::MatrixXd table = Table(measures, survey, half);
   const Eigen::VectorXd surveyed_m = table.colwise().mean().transpose();
   const Eigen::MatrixXd centred = table.rowwise() - surveyed_m.transpose();
@@ -63,7 +69,7 @@ Population Fit(const std::vector<const BodyMeasure*>& measures, const Survey& su
     fit.covariance_m2.col(place) *= scale;
     fit.mean_m[place] = kMetresPerMillimetre * percentiles->p50;
   }
-  return fit;
+  return {fit, fit.mean_m - surveyed_m};
 }
 
 }  // namespace
@@ -79,8 +85,9 @@ anthropometry::Populations FitPopulations(const anthropometry::BodyMeasures& mea
     surveyed.push_back(&measure);
     names.push_back(measure.name);
   }
-  return {names, Fit(surveyed, surveys.female, Sex::kFemale, half),
-          Fit(surveyed, surveys.male, Sex::kMale, half)};
+  const SexFit female = Fit(surveyed, surveys.female, Sex::kFemale, half);
+  const SexFit male = Fit(surveyed, surveys.male, Sex::kMale, half);
+  return {names, female.population, male.population, 0.5 * (female.moved_m + male.moved_m)};
 }
 
 }  // namespace deixis::anthropometer

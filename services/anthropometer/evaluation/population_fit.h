@@ -21,7 +21,7 @@ struct Surveys {
 /// Joint distributions of all measures that the survey has. Correlations are those of half of its
 /// people. Means and spreads of what has percentiles are those, of the others the survey's: their
 /// means moved to the mean stature of the percentiles by regression, since the people of a survey
-/// may be of another size.
+/// may be of another size. The offset is the mean of both sexes' differences from the survey.
 anthropometry::Populations FitPopulations(const anthropometry::BodyMeasures& measures,
                                           const Surveys& surveys, Half half);
 

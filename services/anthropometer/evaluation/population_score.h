@@ -11,18 +11,21 @@ namespace deixis::anthropometer {
 struct PredictionScore {
   std::string measure;
   double median_mm = 0.0;  ///< Of the absolute error.
+  double p90_mm = 0.0;
   double p95_mm = 0.0;
   double stated_spread_mm = 0.0;  ///< Median of what the estimate states.
   double bias_mm = 0.0;           ///< Mean error: definitions and people that differ.
+  double share_within_50 = 0.0;   ///< Of true values in the interval that should hold 50 %.
   double share_within_90 = 0.0;   ///< Of true values in the interval that should hold 90 %.
 };
 
-/// How well the sex follows from the same lengths.
+/// How well the sex follows from the same lengths: women and men weigh the same, however many.
 struct SexScore {
   double accuracy = 0.0;           ///< Share of people whose sex is the likelier one.
   double sure_share = 0.0;         ///< Of people whose probability is above 0.9.
   double sure_accuracy = 0.0;      ///< Among these.
   double calibration_error = 0.0;  ///< Mean gap between stated probability and share, by tenths.
+  double brier = 0.0;              ///< Mean squared error of the stated probability.
 };
 
 struct PopulationScore {

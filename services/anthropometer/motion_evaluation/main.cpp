@@ -8,8 +8,8 @@
 
 #include "common/config/config.h"
 #include "common/program/command_line.h"
+#include "services/anthropometer/core/recording.h"
 #include "services/anthropometer/motion_evaluation/motion_score.h"
-#include "services/anthropometer/motion_evaluation/recordings.h"
 #include "services/anthropometer/motion_evaluation/speed_score.h"
 
 namespace deixis::anthropometer {
@@ -141,7 +141,9 @@ SpeedSamples SpeedsOf(const std::vector<fs::path>& files, const RecordingReader&
 void Run(const Arguments& arguments) {
   const auto rows = anatomy::JointLimits::Load(config::FindConfig("kinematics/joint_limits.yaml"));
   auto plan = range_of_motion::LoadRangePlan(config::FindConfig("kinematics/range_of_motion.yaml"));
-  const RecordingReader reader(arguments.model, arguments.amc_rate_hz);
+  motion::ClipOptions options;
+  options.amc_frame_rate_hz = arguments.amc_rate_hz;
+  const RecordingReader reader(arguments.model, options);
   if (!arguments.allowances.empty()) {
     const auto files = FilesOf(arguments.data, arguments.allowances);
     plan = WithAllowancesFor(ScoreOf(files, reader, {plan, rows, Limits::kSource}), plan);

@@ -244,6 +244,8 @@ TEST(Retarget, ScalesTheBodyToThePerson) {
   };
   EXPECT_NEAR(length_m("right_upper_arm"), 0.29, 1e-9);
   EXPECT_NEAR(length_m("left_shank"), 0.42, 1e-9);
+  EXPECT_NEAR(length_m("chest"), 0.25, 1e-9);  // Of a limb that stands as the model's does.
+  EXPECT_NEAR(length_m("right_foot"), 0.14, 1e-9);
   EXPECT_GT(angles.made().scale, 0.8);
   EXPECT_LT(angles.made().scale, 1.3);
 }

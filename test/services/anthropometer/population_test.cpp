@@ -18,6 +18,7 @@ using anthropometry::BodyMeasures;
 using anthropometry::EstimatePerson;
 using anthropometry::MeasuredLength;
 using anthropometry::PersonEstimate;
+using anthropometry::Population;
 using anthropometry::Populations;
 using anthropometry::Sex;
 using testing::HasSubstr;
@@ -47,16 +48,46 @@ TEST(Population, HasTheMeansAndSpreadsOfTheTables) {
 TEST(EstimatePerson, KnowsThePopulationWhenNothingIsMeasured) {
   const PersonEstimate estimate = EstimatePerson(Shipped(), {}, Sex::kMale);
   EXPECT_NEAR(estimate.Length_m("kph"), 1.802, 1e-9);
-  EXPECT_NEAR(estimate.Spread_m("kph"), 0.0653, 0.0005);
+  const double offset_m = Shipped().offset_m()[*Shipped().Find("kph")];
+  EXPECT_GT(offset_m, 0.03);
+  EXPECT_NEAR(estimate.Spread_m("kph"), std::hypot(0.0653, offset_m), 0.0005);
   EXPECT_EQ(EstimatePerson(Shipped(), {}).female_probability, 0.5);
 }
 
 TEST(EstimatePerson, FollowsALengthAsFarAsItsVarianceAllows) {
   const double sure = EstimatePerson(Shipped(), {{"kph", 1.95, 1e-8}}, Sex::kMale).Length_m("kph");
+  const double spread = EstimatePerson(Shipped(), {}, Sex::kMale).Spread_m("kph");
   const double doubtful =
-      EstimatePerson(Shipped(), {{"kph", 1.95, 0.0653 * 0.0653}}, Sex::kMale).Length_m("kph");
+      EstimatePerson(Shipped(), {{"kph", 1.95, spread * spread}}, Sex::kMale).Length_m("kph");
   EXPECT_NEAR(sure, 1.95, 1e-5);
   EXPECT_NEAR(doubtful, 0.5 * (1.95 + 1.802), 1e-3);
+}
+
+/// Women and men of two lengths; all may be larger than that by `offset_m`.
+Populations TwoLengths(double offset_m) {
+  const Eigen::Matrix2d spread = Eigen::Vector2d(9e-4, 9e-4).asDiagonal();
+  return {{"kph", "oal"},
+          {Eigen::Vector2d(1.68, 0.30), spread},
+          {Eigen::Vector2d(1.78, 0.40), spread},
+          Eigen::Vector2d(offset_m, 0.0)};
+}
+
+TEST(EstimatePerson, IsLessSureOfTheSexByLengthsThatDifferBetweenPopulations) {
+  const auto probability = [](double offset_m, const char* measure, double length_m) {
+    return EstimatePerson(TwoLengths(offset_m), {{measure, length_m, 1e-6}}).female_probability;
+  };
+  EXPECT_GT(probability(0.0, "kph", 1.66), 0.99);
+  EXPECT_LT(probability(0.1, "kph", 1.66), 0.75);
+  EXPECT_EQ(probability(0.1, "oal", 0.31), probability(0.0, "oal", 0.31));
+}
+
+TEST(EstimatePerson, LearnsOfItsPopulationFromOneLengthForAnother) {
+  const Eigen::Matrix2d spread = Eigen::Vector2d(1e-4, 1e-4).asDiagonal();
+  const Population same{Eigen::Vector2d(1.7, 0.3), spread};
+  const Populations populations({"kph", "oal"}, same, same, Eigen::Vector2d(0.1, 0.05));
+  const auto estimate = EstimatePerson(populations, {{"kph", 1.6, 1e-8}});
+  EXPECT_NEAR(estimate.Length_m("oal"), 0.3 - 0.05 / 1.01, 1e-5);
+  EXPECT_NEAR(SizesOf(populations, Sex::kMale, 1.6).at("oal"), 0.3, 1e-9);
 }
 
 TEST(EstimatePerson, InfersLongerLimbsOfTallerPeopleAndGrowsSurer) {
@@ -106,6 +137,7 @@ TEST(Populations, AreReadAsTheyWereWritten) {
   const Populations again = Populations::Load(folder.Write("p.yaml", Shipped().ToYaml()));
   EXPECT_EQ(again.measures(), Shipped().measures());
   EXPECT_LE((again.Of(Sex::kMale).mean_m - Shipped().Of(Sex::kMale).mean_m).norm(), 1e-3);
+  EXPECT_LE((again.offset_m() - Shipped().offset_m()).norm(), 1e-3);
 }
 
 TEST(Populations, NameFileAndKeyOfWhatIsWrong) {
@@ -120,6 +152,7 @@ TEST(Populations, NameFileAndKeyOfWhatIsWrong) {
   EXPECT_NO_THROW(loading(good)());
   for (const auto& [from, to, says] : std::vector<std::array<std::string, 3>>{
            {"[1680, 310]", "[1680]", "female"},
+           {"female:", "offset_mm: [1]\nfemale:", "offset_mm"},
            {"[60, 16]", "[60, -16]", "female.spread_mm"},
            {"[0.7, 1]", "[1.7, 1]", "female.correlation[1]"},
            {"[[1], [0.7, 1]]", "[[1], [1]]", "female.correlation[1]"},
@@ -165,6 +198,9 @@ TEST(Evaluation, FindsTheSpreadThatTheSurveyHas) {
   EXPECT_NEAR(score.predictions[1].share_within_90, 0.9, 0.04);
   EXPECT_GT(score.sex.accuracy, 0.8);
   EXPECT_LT(score.sex.calibration_error, 0.06);
+  EXPECT_LT(score.sex.brier, 0.15);
+  EXPECT_NEAR(score.predictions[1].share_within_50, 0.5, 0.06);
+  EXPECT_GT(score.predictions[1].p90_mm, score.predictions[1].median_mm);
 }
 
 TEST(Survey, NamesTheLineOrColumnThatIsWrong) {

@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from deixis_frontend import layout, output_files
+from deixis_frontend.commands import body_motion
+from deixis_frontend.errors import UserError
 from deixis_frontend.number_options import above_zero
 from deixis_frontend.programs import run_program
 from deixis_frontend.text_table import lines
@@ -21,7 +23,7 @@ _PASSED_ON = ("sex", "stature", "percentile", "model", "joint", "measure", "lang
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Who it is, what is told of the body, and the files that are written of it."""
-    parser.add_argument("--sex", choices=("female", "male"), required=True, help="whose sizes")
+    parser.add_argument("--sex", choices=("female", "male"), help="whose sizes; needed without --motion")
     size = parser.add_mutually_exclusive_group()
     size.add_argument("--stature", type=_stature, metavar="METRES", help="body height")
     size.add_argument("--percentile", type=_percentile, metavar="P",
@@ -44,10 +46,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--body-id", default="default", metavar="ID",
                         help="ends all names of the URDF, as in REP 155 (default: %(default)s)")
     parser.add_argument("--ply", type=Path, metavar="FILE", help="write the surface as PLY, metres")
+    body_motion.add_arguments(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """0; raises UserError when a name is none or a file cannot be written."""
+    body_motion.check(arguments)
+    if arguments.motion is not None:
+        _refuse_beside_motion(arguments)
+        return body_motion.run(arguments)
+    if arguments.sex is None:
+        raise UserError("--sex female or --sex male is needed, or a motion file: --motion FILE")
     for option in _FILES:
         if getattr(arguments, option) is not None:
             output_files.require_file(getattr(arguments, option), f"--{option}")
@@ -60,6 +69,14 @@ def run(arguments: argparse.Namespace) -> int:
         if getattr(arguments, option) is not None:
             print(f"written: {getattr(arguments, option)}")
     return 0
+
+
+def _refuse_beside_motion(arguments: argparse.Namespace) -> None:
+    for option in ("sex", "stature", "percentile", "joint", "measure", *_FILES):
+        if getattr(arguments, option) is not None:
+            raise UserError(f"--{option} does not go with --motion, whose person has the file's sizes")
+    if arguments.angle:
+        raise UserError("--angle does not go with --motion, whose poses are the file's")
 
 
 def _options(arguments: argparse.Namespace) -> list[str]:

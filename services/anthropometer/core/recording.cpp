@@ -1,12 +1,12 @@
-#include "services/anthropometer/motion_evaluation/recordings.h"
+#include "services/anthropometer/core/recording.h"
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "common/anthropometry/person_estimate.h"
 #include "common/body_model/body_plan.h"
 #include "common/config/config.h"
-#include "common/motion/read_clip.h"
 
 namespace deixis::anthropometer {
 namespace {
@@ -48,16 +48,14 @@ std::string ActorOf(const fs::path& file) {
   return stem.substr(0, stem.rfind('_'));
 }
 
-RecordingReader::RecordingReader(const std::string& model, double amc_frame_rate_hz)
+RecordingReader::RecordingReader(const std::string& model, motion::ClipOptions options)
     : maps_(
           retargeting::LoadSkeletonMaps(config::FindConfig("skeletons/deixis.yaml").parent_path())),
       average_(AveragePerson(model)),
-      amc_frame_rate_hz_(amc_frame_rate_hz) {}
+      options_(std::move(options)) {}
 
 retargeting::Retargeted RecordingReader::Read(const fs::path& file) const {
-  motion::ClipOptions options;
-  options.amc_frame_rate_hz = amc_frame_rate_hz_;
-  const motion::Clip clip = motion::ReadClip(file, options);
+  const motion::Clip clip = motion::ReadClip(file, options_);
   try {
     return Retarget(clip, BestMap(maps_, clip.skeleton), average_);
   } catch (const config::ConfigError& error) {

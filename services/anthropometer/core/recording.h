@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/body_model/body_model.h"
+#include "common/motion/read_clip.h"
 #include "common/retargeting/retarget.h"
 
 namespace deixis::anthropometer {
@@ -21,7 +22,7 @@ class RecordingReader {
  public:
   /// With the shipped maps of skeletons and the usual sizes of people of both sexes. Throws
   /// ConfigError when `model`, a name in config/body_models, is none.
-  RecordingReader(const std::string& model, double amc_frame_rate_hz);
+  RecordingReader(const std::string& model, motion::ClipOptions options);
 
   /// Throws MotionFileError or ConfigError naming the file.
   retargeting::Retargeted Read(const std::filesystem::path& file) const;
@@ -29,7 +30,7 @@ class RecordingReader {
  private:
   std::vector<retargeting::SkeletonMap> maps_;
   body_model::BodyModel average_;
-  double amc_frame_rate_hz_;
+  motion::ClipOptions options_;
 };
 
 }  // namespace deixis::anthropometer
