@@ -111,19 +111,6 @@ std::string Number(double value) {
   return text;
 }
 
-/// Roll, pitch, yaw: rotation = Rz(yaw) Ry(pitch) Rx(roll); exact at +-90 degrees of pitch, too.
-Vector3d RollPitchYaw(const Matrix3d& rotation) {
-  const double level = std::hypot(rotation(0, 0), rotation(1, 0));
-  const double yaw = level < 1e-9 ? 0.0 : std::atan2(rotation(1, 0), rotation(0, 0));
-  const double pitch = std::atan2(-rotation(2, 0), level);
-  const Matrix3d left =
-      (Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3d::UnitY()))
-          .toRotationMatrix()
-          .transpose() *
-      rotation;
-  return {std::atan2(left(2, 1), left(1, 1)), pitch, yaw};
-}
-
 std::string OriginText(const Vector3d& at_m, const Vector3d& rpy_rad = Vector3d::Zero()) {
   return "<origin xyz=\"" + Numbers(at_m) + "\" rpy=\"" + Numbers(rpy_rad) + "\"/>\n";
 }
@@ -181,6 +168,18 @@ void CheckNames(const std::vector<UrdfJoint>& joints) {
 }
 
 }  // namespace
+
+Vector3d RollPitchYaw(const Matrix3d& rotation) {
+  const double level = std::hypot(rotation(0, 0), rotation(1, 0));
+  const double yaw = level < 1e-9 ? 0.0 : std::atan2(rotation(1, 0), rotation(0, 0));
+  const double pitch = std::atan2(-rotation(2, 0), level);
+  const Matrix3d left =
+      (Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3d::UnitY()))
+          .toRotationMatrix()
+          .transpose() *
+      rotation;
+  return {std::atan2(left(2, 1), left(1, 1)), pitch, yaw};
+}
 
 std::vector<UrdfJoint> UrdfJoints(const BodyModel& model, const std::string& body_id) {
   const auto& limbs = model.limbs();
