@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from deixis_frontend.cli import main
 
@@ -47,6 +48,13 @@ def test_one_joint_or_measure_is_found_by_its_name_in_any_language(
         assert (row["measure"], row["mm"]) == ("kph", 1680)
 
 
+def test_a_pose_is_held_against_what_is_possible_in_it(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*PERSON, "--joint", "elbow", "--angle", "left_lower_arm.flexion=120"]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ["left_elbow", "flexion", "30"] in rows
+    assert ["right_elbow", "extension", "10"] in rows
+
+
 def test_people_without_a_stature_are_of_their_percentile(capsys: pytest.CaptureFixture[str]) -> None:
     statures = []
     for options in (["--percentile", "5"], [], ["--percentile", "95"]):
@@ -76,11 +84,13 @@ def test_absurd_people_are_wrong_usage(options: str, hint: str,
     ("--angle left_shank.flexion=200", "200 is beyond -10..155 degrees"),
     ("--angle left_shank", "no LIMB.ANGLE=DEGREES"),
     ("--urdf /proc/none/body.urdf", "/proc/none/body.urdf cannot be written"),
+    ("--png /proc/none/body.png", "/proc/none/body.png cannot be written"),
     ("--ply /", "--ply / is a folder"),
+    ("--motion walk.bvh", "--sex does not go with --motion"),
 ])
 def test_what_is_none_is_told_and_nothing_is_written(options: str, hint: str, tmp_path: Path,
                                                      capsys: pytest.CaptureFixture[str]) -> None:
-    kept = [] if "--urdf" in options else ["--urdf", str(tmp_path / "body.urdf")]
+    kept = [] if "--urdf" in options or "--png" in options else ["--urdf", str(tmp_path / "body.urdf")]
     assert main([*PERSON, *kept, *options.split()]) == 1
     assert hint in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
@@ -152,6 +162,18 @@ def test_ply_has_closed_limbs_of_the_right_size_that_stand_on_the_floor(
         corners = points[np.array(faces)]
         volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
         assert volume == pytest.approx(limb["volume_m3"], rel=0.005)
+
+
+def test_png_is_a_picture_whose_words_are_of_the_language(tmp_path: Path,
+                                                          capsys: pytest.CaptureFixture[str]) -> None:
+    for language in ("en", "de"):
+        report_of(capsys, "--png", str(tmp_path / language), "--language", language)
+    english, german = (np.asarray(Image.open(tmp_path / each).convert("RGB")).astype(int)
+                       for each in ("en", "de"))
+    assert english.shape == german.shape == (1200, 2400, 3)
+    changed = np.abs(english - german).sum(axis=2) > 0
+    assert changed[:, :400].any() and changed[:, 800:1200].any()
+    assert not changed[:, 560:590].any()  # The body itself.
 
 
 def test_the_pose_of_the_mesh_can_be_chosen(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

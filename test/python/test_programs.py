@@ -45,6 +45,12 @@ def test_a_hint_below_the_error_is_passed_over(layout: Layout) -> None:
         run_program(layout, "deixis-x")
 
 
+def test_a_program_that_names_itself_is_named_once(layout: Layout) -> None:
+    write_program(layout, "echo 'deixis-x: no such joint' >&2; exit 1")
+    with pytest.raises(UserError, match="^deixis-x failed: no such joint$"):
+        run_program(layout, "deixis-x")
+
+
 def test_lines_come_while_the_program_runs_however_much_it_warns(layout: Layout) -> None:
     go_on = layout.programs / "go_on"
     write_program(layout, f"echo one; until test -e {go_on}; do sleep 0.02; done;"

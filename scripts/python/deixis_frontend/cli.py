@@ -46,7 +46,7 @@ COMMANDS: dict[str, Command] = {
     "procman": Command(f"{_PACKAGE}.procman", "write the services as a procman sheriff reads them"),
     "calibrate": Command(f"{_PACKAGE}.calibrate", "lenses and stereo from pictures of a board"),
     "evaluate": Command(f"{_PACKAGE}.evaluate", "measure results against recordings with truth"),
-    "body": Command(f"{_PACKAGE}.body", "sizes, limbs and joint limits of a person; URDF, mesh"),
+    "body": Command(f"{_PACKAGE}.body", "a person's sizes and joint limits; picture, URDF, mesh"),
     "train-gestures": Command("deixis_frontend.training.gestures", "learn gesture models"),
     "train-hands": Command("deixis_frontend.training.hands", "learn what hands look like"),
 }

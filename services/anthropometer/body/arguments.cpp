@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -71,8 +72,10 @@ void AddPersonOptions(CLI::App& app, Arguments& arguments) {
 }
 
 void AddReportOptions(CLI::App& app, ReportRequest& request) {
-  app.add_option("--joint", request.joint, "Tell the limits of this joint only, in any language");
-  app.add_option("--measure", request.measure, "Tell this measure only, in any language");
+  app.add_option("--joint", request.joint, "Tell the limits of this joint only, in any language")
+      ->check(program::EmptyFault);
+  app.add_option("--measure", request.measure, "Tell this measure only, in any language")
+      ->check(program::EmptyFault);
   AddChoice(app, "--language", request.language, EnumNames(request.language), "Of the names");
 }
 
@@ -87,6 +90,7 @@ void AddPoseOptions(CLI::App& app, Arguments& arguments, std::vector<std::string
 }
 
 void AddFileOptions(CLI::App& app, Arguments& arguments) {
+  app.add_option("--png", arguments.png, "Draw the body with the ranges of its joints");
   app.add_option("--urdf", arguments.urdf, "Write the model as URDF to this file");
   app.add_option("--body-id", arguments.body_id, "Ends all names of the URDF, as in REP 155")
       ->check([](const std::string& id) {

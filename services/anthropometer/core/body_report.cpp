@@ -83,6 +83,14 @@ std::string RowJson(const anatomy::JointLimits& limits, const JointLimit& row,
        {"why", JsonString(row.why)}});
 }
 
+std::string LeftJson(const anatomy::JointLimits& limits, const range_of_motion::Margin& margin,
+                     anatomy::Language language) {
+  return JsonObject(
+      {{"motion", JsonString(*margin.motion)},
+       {"motion_name", JsonString(Named(limits.motions(), *margin.motion).names.In(language))},
+       {"left_deg", JsonNumber(std::round(10.0 * margin.margin_rad * kDegrees) / 10.0)}});
+}
+
 std::string AnglesJson(const Limb& limb, const Eigen::VectorXd& angles_rad) {
   std::vector<std::string> angles;
   for (std::size_t k = 0; k < limb.dofs.size(); ++k) {
@@ -155,6 +163,32 @@ std::string LimbsJson(const body_model::BodyModel& model, const body_model::Body
          {"angles", AnglesJson(limb, angles)}}));
   }
   return JsonArray(limbs);
+}
+
+std::string PostureJson(const body_model::BodyModel& model,
+                        const range_of_motion::RangeOfMotion& range,
+                        const body_model::BodyPose& pose, const anatomy::JointLimits& limits,
+                        const ReportRequest& request) {
+  body_model::Kinematics kinematics(model);
+  kinematics.Update(pose);
+  std::vector<range_of_motion::JointState> states;
+  range.Check(kinematics, states);
+  std::vector<std::string> joints;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto& term = Named(limits.joints(), range.joints()[i].joint.joint());
+    if (!request.joint.empty() && request.joint != term.name && !term.names.Match(request.joint)) {
+      continue;
+    }
+    std::vector<std::string> left;
+    for (int k = 0; k < states[i].margins.count; ++k) {
+      const auto& margin = states[i].margins.each[static_cast<std::size_t>(k)];
+      if (margin.motion != nullptr) left.push_back(LeftJson(limits, margin, request.language));
+    }
+    joints.push_back(JsonObject({{"joint", JsonString(range.joints()[i].Name())},
+                                 {"joint_name", JsonString(term.names.In(request.language))},
+                                 {"limits", JsonArray(left)}}));
+  }
+  return JsonArray(joints);
 }
 
 std::string JointValuesJson(const body_model::BodyModel& model, const body_model::BodyPose& pose,

@@ -6,6 +6,7 @@
 #include "common/anatomy/joint_limits.h"
 #include "common/anthropometry/body_measures.h"
 #include "common/body_model/body_model.h"
+#include "common/range_of_motion/range_of_motion.h"
 
 namespace deixis::anthropometer {
 
@@ -35,6 +36,14 @@ std::string JointLimitsJson(const anatomy::JointLimits& limits, const ReportRequ
 /// The limbs with their sizes, where they lie in a pose (frame of the base limb's joint) and their
 /// angles, as JSON.
 std::string LimbsJson(const body_model::BodyModel& model, const body_model::BodyPose& pose);
+
+/// How many degrees each joint has left in a pose before it meets its limits, posture and other
+/// joints counted, as JSON: negative beyond. The nearest limit per angle; of shoulder and hip one
+/// for where the limb points at. Only those of `request.joint`, if it is one.
+std::string PostureJson(const body_model::BodyModel& model,
+                        const range_of_motion::RangeOfMotion& range,
+                        const body_model::BodyPose& pose, const anatomy::JointLimits& limits,
+                        const ReportRequest& request);
 
 /// What the joints of the model's URDF stand at in a pose, radians, as JSON.
 std::string JointValuesJson(const body_model::BodyModel& model, const body_model::BodyPose& pose,

@@ -1,5 +1,6 @@
 #include "services/anthropometer/core/drawing.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -30,31 +31,6 @@ cv::Scalar ColourOf(const std::string& name) {
   return kMiddle;
 }
 
-/// Metres in the root's frame to pixels, and how near the viewer is.
-class Projection {
- public:
-  Projection(View view, const Vector3d& middle_m, int height_px, double span_m)
-      : view_(view), middle_m_(middle_m), half_px_(0.5 * height_px), per_m_(height_px / span_m) {}
-
-  cv::Point operator()(const Vector3d& point_m) const {
-    const Vector3d offset = per_m_ * (point_m - middle_m_);
-    // From the front the person's left is on the right; from its left side the front is on the
-    // left.
-    const double right = view_ == View::kFront ? offset.y() : -offset.x();
-    return {static_cast<int>(std::lround(half_px_ + right)),
-            static_cast<int>(std::lround(half_px_ - offset.z()))};
-  }
-  double Nearness(const Vector3d& point_m) const {
-    return view_ == View::kFront ? point_m.x() : point_m.y();
-  }
-
- private:
-  View view_;
-  Vector3d middle_m_;
-  double half_px_;
-  double per_m_;
-};
-
 std::vector<Vector3d> SurfaceOf(const Kinematics& kinematics, int limb) {
   const auto& shape = kinematics.model().limbs()[static_cast<std::size_t>(limb)].shape;
   std::vector<Vector3d> points;
@@ -67,45 +43,62 @@ std::vector<Vector3d> SurfaceOf(const Kinematics& kinematics, int limb) {
   return points;
 }
 
-Vector3d MiddleOf(const std::vector<std::vector<Vector3d>>& surfaces) {
-  Vector3d low = surfaces[0][0], high = low;
-  for (const auto& surface : surfaces) {
-    for (const Vector3d& point : surface) {
-      low = low.cwiseMin(point);
-      high = high.cwiseMax(point);
-    }
+/// The box around all limbs.
+Eigen::AlignedBox3d BoxOf(const Kinematics& kinematics) {
+  Eigen::AlignedBox3d box;
+  for (int i = 0; i < kinematics.model().limb_count(); ++i) {
+    for (const Vector3d& point : SurfaceOf(kinematics, i)) box.extend(point);
   }
-  return 0.5 * (low + high);
+  return box;
 }
 
-}  // namespace
-
-cv::Mat Draw(const BodyModel& model, const BodyPose& pose, View view, int height_px,
-             double span_m) {
-  Kinematics kinematics(model);
-  BodyPose in_root = pose;
-  in_root.frame_from_root = {};
-  kinematics.Update(in_root);
-  std::vector<std::vector<Vector3d>> surfaces;
-  for (int i = 0; i < model.limb_count(); ++i) surfaces.push_back(SurfaceOf(kinematics, i));
-  const Projection projection(view, MiddleOf(surfaces), height_px, span_m);
-  std::vector<int> order(surfaces.size());
+/// The limbs, farthest first.
+std::vector<int> FromBehind(const Kinematics& kinematics, const Projection& projection) {
+  std::vector<int> order(kinematics.model().limbs().size());
   std::iota(order.begin(), order.end(), 0);
   const auto nearness = [&](int limb) {
     return projection.Nearness(0.5 * (kinematics.proximal_m(limb) + kinematics.distal_m(limb)));
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return nearness(a) < nearness(b); });
+  return order;
+}
+
+void DrawLimb(const Kinematics& kinematics, int limb, const Projection& projection,
+              cv::Mat& picture) {
+  std::vector<cv::Point> points, outline;
+  for (const Vector3d& point : SurfaceOf(kinematics, limb)) points.push_back(projection(point));
+  cv::convexHull(points, outline);
+  const std::string& name = kinematics.model().limbs()[static_cast<std::size_t>(limb)].name;
+  cv::fillConvexPoly(picture, outline, ColourOf(name), cv::LINE_AA);
+  cv::polylines(picture, outline, true, kOutline, 1, cv::LINE_AA);
+}
+
+Kinematics Upright(const BodyModel& model, const BodyPose& pose) {
+  Kinematics kinematics(model);
+  BodyPose in_root = pose;
+  in_root.frame_from_root = {};
+  kinematics.Update(in_root);
+  return kinematics;
+}
+
+}  // namespace
+
+Projection ProjectionOf(const Kinematics& kinematics, View view, int height_px, double span_m) {
+  return {view, BoxOf(kinematics).center(), height_px, span_m};
+}
+
+double SpanOf(const Kinematics& kinematics) {
+  return kMargin * BoxOf(kinematics).sizes().maxCoeff();
+}
+
+cv::Mat Draw(const BodyModel& model, const BodyPose& pose, View view, int height_px,
+             double span_m) {
+  const Kinematics kinematics = Upright(model, pose);
+  const Projection projection = ProjectionOf(kinematics, view, height_px, span_m);
   cv::Mat picture(height_px, height_px, CV_8UC3, kPaper);
-  for (const int limb : order) {
-    std::vector<cv::Point> points, outline;
-    for (const Vector3d& point : surfaces[static_cast<std::size_t>(limb)]) {
-      points.push_back(projection(point));
-    }
-    cv::convexHull(points, outline);
-    const std::string& name = model.limbs()[static_cast<std::size_t>(limb)].name;
-    cv::fillConvexPoly(picture, outline, ColourOf(name), cv::LINE_AA);
-    cv::polylines(picture, outline, true, kOutline, 1, cv::LINE_AA);
+  for (const int limb : FromBehind(kinematics, projection)) {
+    DrawLimb(kinematics, limb, projection, picture);
   }
   for (int limb = 0; limb < model.limb_count(); ++limb) {
     cv::circle(picture, projection(kinematics.proximal_m(limb)), std::max(2, height_px / 250),
@@ -115,18 +108,7 @@ cv::Mat Draw(const BodyModel& model, const BodyPose& pose, View view, int height
 }
 
 cv::Mat DrawFrontAndSide(const BodyModel& model, const BodyPose& pose, int height_px) {
-  Kinematics kinematics(model);
-  BodyPose in_root = pose;
-  in_root.frame_from_root = {};
-  kinematics.Update(in_root);
-  Vector3d low = Vector3d::Constant(1e9), high = -low;
-  for (int i = 0; i < model.limb_count(); ++i) {
-    for (const Vector3d& point : SurfaceOf(kinematics, i)) {
-      low = low.cwiseMin(point);
-      high = high.cwiseMax(point);
-    }
-  }
-  const double span_m = kMargin * (high - low).maxCoeff();
+  const double span_m = SpanOf(Upright(model, pose));
   cv::Mat both;
   cv::hconcat(Draw(model, pose, View::kFront, height_px, span_m),
               Draw(model, pose, View::kSide, height_px, span_m), both);

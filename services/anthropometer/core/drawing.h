@@ -1,12 +1,10 @@
 #pragma once
 #include <opencv2/core/mat.hpp>
 
-#include "common/body_model/body_model.h"
+#include "common/body_model/kinematics.h"
+#include "services/anthropometer/core/projection.h"
 
 namespace deixis::anthropometer {
-
-/// From where a body is looked at.
-enum class View { kFront, kSide };
 
 /// The body as the outlines of its limbs, CV_8UC3, `height_px` high: the nearer limbs over the
 /// farther ones, joints as dots, its right side warmer than its left. The picture shows `span_m` of
@@ -17,5 +15,12 @@ cv::Mat Draw(const body_model::BodyModel& model, const body_model::BodyPose& pos
 /// Front and side view beside each other.
 cv::Mat DrawFrontAndSide(const body_model::BodyModel& model, const body_model::BodyPose& pose,
                          int height_px);
+
+/// How Draw shows a body, which stands in `kinematics` with its base limb's joint in the origin.
+Projection ProjectionOf(const body_model::Kinematics& kinematics, View view, int height_px,
+                        double span_m);
+
+/// The span that shows all of a body, with a margin.
+double SpanOf(const body_model::Kinematics& kinematics);
 
 }  // namespace deixis::anthropometer

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "common/body_model/kinematics.h"
 
@@ -27,8 +29,9 @@ struct SwingAxes {
   Vector3d first_axis, second_axis, third_axis;
 };
 
-double Reach(const DegreeOfFreedom& dof) {
-  return std::max(std::abs(dof.angle_min_rad), std::abs(dof.angle_max_rad));
+/// Goes first whatever its bounds are, so that a joint's meaning does not change with them.
+bool IsFlexion(const DegreeOfFreedom& dof) {
+  return dof.name == "flexion" || dof.name == "horizontal_flexion";
 }
 
 std::optional<SwingAxes> SwingAxesOf(const Limb& limb) {
@@ -40,7 +43,7 @@ std::optional<SwingAxes> SwingAxesOf(const Limb& limb) {
   }
   if (axes.second < 0) return std::nullopt;
   const auto dof = [&](int k) { return limb.dofs[static_cast<std::size_t>(k)]; };
-  if (Reach(dof(axes.second)) > Reach(dof(axes.first))) std::swap(axes.first, axes.second);
+  if (IsFlexion(dof(axes.second))) std::swap(axes.first, axes.second);
   axes.first_axis = dof(axes.first).axis;
   axes.second_axis = Vector3d::UnitZ().cross(axes.first_axis);
   if (axes.second_axis.dot(dof(axes.second).axis) < 0.0) axes.second_axis *= -1.0;
@@ -115,7 +118,8 @@ std::vector<ChainJoint> ChainOf(const Limb& limb) {
     for (std::size_t k = 0; k < limb.dofs.size(); ++k) {
       const DegreeOfFreedom& dof = limb.dofs[k];
       if (dof.kind != kind) continue;
-      chain.push_back({dof.axis, static_cast<int>(k), true, dof.angle_min_rad, dof.angle_max_rad});
+      chain.push_back({dof.axis, static_cast<int>(k), kind == DofKind::kHinge, dof.angle_min_rad,
+                       dof.angle_max_rad});
     }
   }
   return chain;

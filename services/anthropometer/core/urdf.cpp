@@ -91,11 +91,8 @@ void AppendChain(const Limb& limb, int index, const std::string& parent, const s
   std::string from = parent;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const std::string part = name.side + letters[i] + "_" + stem + "_" + body_id;
-    const bool is_hinge =
-        chain[i].dof >= 0 &&
-        limb.dofs[static_cast<std::size_t>(chain[i].dof)].kind == body_model::DofKind::kHinge;
     const std::string child = i + 1 == chain.size() ? link : part;
-    joints.push_back({is_hinge ? link : part, from, child, index,
+    joints.push_back({chain[i].is_hinge ? link : part, from, child, index,
                       i == 0 ? limb.rest_in_parent : geometry::RigidTransform(), false, chain[i]});
     from = child;
   }
@@ -112,19 +109,6 @@ std::string Number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value + 0.0);
   return text;
-}
-
-/// Roll, pitch, yaw: rotation = Rz(yaw) Ry(pitch) Rx(roll); exact at +-90 degrees of pitch, too.
-Vector3d RollPitchYaw(const Matrix3d& rotation) {
-  const double level = std::hypot(rotation(0, 0), rotation(1, 0));
-  const double yaw = level < 1e-9 ? 0.0 : std::atan2(rotation(1, 0), rotation(0, 0));
-  const double pitch = std::atan2(-rotation(2, 0), level);
-  const Matrix3d left =
-      (Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3d::UnitY()))
-          .toRotationMatrix()
-          .transpose() *
-      rotation;
-  return {std::atan2(left(2, 1), left(1, 1)), pitch, yaw};
 }
 
 std::string OriginText(const Vector3d& at_m, const Vector3d& rpy_rad = Vector3d::Zero()) {
@@ -184,6 +168,18 @@ void CheckNames(const std::vector<UrdfJoint>& joints) {
 }
 
 }  // namespace
+
+Vector3d RollPitchYaw(const Matrix3d& rotation) {
+  const double level = std::hypot(rotation(0, 0), rotation(1, 0));
+  const double yaw = level < 1e-9 ? 0.0 : std::atan2(rotation(1, 0), rotation(0, 0));
+  const double pitch = std::atan2(-rotation(2, 0), level);
+  const Matrix3d left =
+      (Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3d::UnitY()))
+          .toRotationMatrix()
+          .transpose() *
+      rotation;
+  return {std::atan2(left(2, 1), left(1, 1)), pitch, yaw};
+}
 
 std::vector<UrdfJoint> UrdfJoints(const BodyModel& model, const std::string& body_id) {
   const auto& limbs = model.limbs();

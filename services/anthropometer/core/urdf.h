@@ -11,6 +11,10 @@ namespace deixis::anthropometer {
 /// The body's density for masses in URDF, kg/m3: that of water, which people nearly have.
 constexpr double kDensity_kg_per_m3 = 1000.0;
 
+/// Roll, pitch, yaw, radians, of a rotation matrix Rz(yaw) Ry(pitch) Rx(roll), exact at pitches of
+/// +-90 degrees too.
+Eigen::Vector3d RollPitchYaw(const Eigen::Matrix3d& rotation);
+
 /// A joint of the URDF.
 struct UrdfJoint {
   std::string name;

@@ -3,13 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 
+#include "common/body_model/joint_angles.h"
 #include "common/config/config.h"
 #include "services/anthropometer/core/json_text.h"
 #include "services/anthropometer/core/whole_file.h"
+#include "test/services/anthropometer/person.h"
 #include "test/support/temporary_folder.h"
 
 namespace deixis::anthropometer {
@@ -61,6 +64,32 @@ TEST(BodyReport, FindsJointsByTheirNamesInAnyLanguage) {
   }
 }
 
+TEST(WholeFile, FollowsLinks) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.Write("file", "first"), link = folder.path() / "link";
+  fs::create_symlink("file", link);
+  WriteWhole(link, "second");
+  EXPECT_TRUE(fs::is_symlink(link));
+  std::string text;
+  std::getline(std::ifstream(file), text);
+  EXPECT_EQ(text, "second");
+}
+
+TEST(BodyReport, TellsHowFarJointsAreFromTheirLimitsInThePose) {
+  const body_model::BodyModel model = TallMan("whole_body_detailed");
+  const auto limits = anatomy::JointLimits::Load(kKinematics + "joint_limits.yaml");
+  const range_of_motion::RangeOfMotion range(
+      model, range_of_motion::LoadRangePlan(kKinematics + "range_of_motion.yaml"), limits,
+      range_of_motion::Limits::kSource);
+  body_model::BodyPose pose = body_model::Standing(model);
+  pose.angles_rad[model.first_angle(*model.Find("left_lower_arm"))] = 120.0 * M_PI / 180.0;
+  const std::string told =
+      PostureJson(model, range, pose, limits, {anatomy::Language::kGerman, "Ellenbogengelenk", ""});
+  EXPECT_THAT(told, HasSubstr(R"("joint": "left_elbow", "joint_name": "Ellenbogengelenk")"));
+  EXPECT_THAT(told, HasSubstr(R"("motion": "flexion", "motion_name": "Beugen", "left_deg": 30})"));
+  EXPECT_THAT(told, Not(HasSubstr("hip")));
+}
+
 TEST(JsonText, EscapesWhatJsonDoesNotTake) {
   EXPECT_EQ(JsonString("a\"b\\c\nä"), "\"a\\\"b\\\\c\\u000aä\"");
   EXPECT_EQ(JsonNumber(-0.0), "0");
@@ -79,6 +108,7 @@ TEST(WholeFile, LeavesTheOldOneWhenItCannotBeWritten) {
   EXPECT_THAT(FaultOf([&] { WriteWhole(folder / "taken", "x"); }), HasSubstr("it is a folder"));
   EXPECT_THAT(FaultOf([&] { WriteWhole(folder / "none" / "file", "x"); }),
               HasSubstr("none/file: cannot be written"));
+  EXPECT_THAT(FaultOf([&] { WriteWhole("/dev/null", "x"); }), HasSubstr("no regular file"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);  // No part is left.
 }
 

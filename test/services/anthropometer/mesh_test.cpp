@@ -5,7 +5,6 @@
 #include <map>
 
 #include "common/body_model/joint_angles.h"
-#include "services/anthropometer/core/drawing.h"
 #include "services/anthropometer/core/solid.h"
 #include "test/services/anthropometer/person.h"
 

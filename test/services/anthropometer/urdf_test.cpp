@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <random>
 #include <set>
@@ -10,7 +11,6 @@
 #include "common/body_model/joint_angles.h"
 #include "common/body_model/kinematics.h"
 #include "common/config/config.h"
-#include "services/anthropometer/core/drawing.h"
 #include "test/services/anthropometer/person.h"
 
 namespace deixis::anthropometer {
@@ -122,6 +122,24 @@ TEST(Urdf, NamesLinksAsRep155Does) {
   for (const char* name : {"r_head_x", "y_head_x", "p_head_x", "r_r_shoulder_x", "l_r_hip_x",
                            "l_p_hip_x", "l_elbow_x", "r_knee_x"}) {
     EXPECT_TRUE(joints.count(name)) << name;
+  }
+}
+
+Eigen::Matrix3d FromRollPitchYaw(const Eigen::Vector3d& rpy) {
+  return (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+TEST(Urdf, TellsAnyRotationByRollPitchYaw) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> angle(-M_PI, M_PI);
+  for (int i = 0; i < 500; ++i) {
+    Eigen::Vector3d rpy(angle(random), angle(random), angle(random));
+    if (i % 3 == 0) rpy.y() = i % 2 == 0 ? M_PI_2 : -M_PI_2;
+    const Eigen::Matrix3d rotation = FromRollPitchYaw(rpy);
+    EXPECT_LE((FromRollPitchYaw(RollPitchYaw(rotation)) - rotation).norm(), 1e-9);
   }
 }
 

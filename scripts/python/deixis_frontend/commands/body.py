@@ -16,7 +16,7 @@ from deixis_frontend.text_table import lines
 
 _STATURES_M = (1.2, 2.3)
 _PERCENTILES = (0.1, 99.9)
-_FILES = ("urdf", "ply")
+_FILES = ("png", "urdf", "ply")
 _PASSED_ON = ("sex", "stature", "percentile", "model", "joint", "measure", "language", "pose",
               "body_id")
 
@@ -40,6 +40,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="how the body is drawn and meshed (default: %(default)s)")
     parser.add_argument("--angle", action="append", default=[], metavar="LIMB.ANGLE=DEGREES",
                         help="then one angle of it, as right_lower_arm.flexion=90; again for more")
+    parser.add_argument("--png", type=Path, metavar="FILE",
+                        help="draw it, front and side, with the ranges of its joints")
     parser.add_argument("--urdf", type=Path, metavar="FILE", help="write the model as URDF")
     parser.add_argument("--body-id", default="default", metavar="ID",
                         help="ends all names of the URDF, as in REP 155 (default: %(default)s)")
@@ -51,6 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
     """0; raises UserError when a name is none or a file cannot be written."""
     body_motion.check(arguments)
     if arguments.motion is not None:
+        _refuse_beside_motion(arguments)
         return body_motion.run(arguments)
     if arguments.sex is None:
         raise UserError("--sex female or --sex male is needed, or a motion file: --motion FILE")
@@ -61,11 +64,19 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print(json.dumps(report, indent=2, ensure_ascii=False))
         return 0
-    print("\n".join(_text(report)))
+    print("\n".join(_text(report, with_posture=bool(arguments.angle))))
     for option in _FILES:
         if getattr(arguments, option) is not None:
             print(f"written: {getattr(arguments, option)}")
     return 0
+
+
+def _refuse_beside_motion(arguments: argparse.Namespace) -> None:
+    for option in ("sex", "stature", "percentile", "joint", "measure", *_FILES):
+        if getattr(arguments, option) is not None:
+            raise UserError(f"--{option} does not go with --motion, whose person has the file's sizes")
+    if arguments.angle:
+        raise UserError("--angle does not go with --motion, whose poses are the file's")
 
 
 def _options(arguments: argparse.Namespace) -> list[str]:
@@ -78,10 +89,12 @@ def _options(arguments: argparse.Namespace) -> list[str]:
     return options + [f"--angle={text}" for text in arguments.angle]
 
 
-def _text(report: dict[str, Any]) -> list[str]:
+def _text(report: dict[str, Any], *, with_posture: bool) -> list[str]:
     """The report as people read it: a heading and the tables that are there."""
     text = [f"{report['sex']}, {report['stature_m']:.3f} m, {report['model']}"]
     tables = {"measures": _measures, "limbs": _limbs, "joint_limits": _joint_limits}
+    if with_posture:
+        tables["posture"] = _posture
     for part, table in tables.items():
         if part in report:
             text += ["", *table(report[part])]
@@ -115,6 +128,13 @@ def _joint_limits(rows: list[dict[str, Any]]) -> list[str]:
     notes = [f"corrected: {row['joint_name']}, {row['motion_name']}: the source prints"
              f" \"{row['printed']}\": {row['why']}" for row in rows if row["printed"]]
     return table + ([""] if notes else []) + notes
+
+
+def _posture(joints: list[dict[str, Any]]) -> list[str]:
+    """How far each joint is from its limits in the pose."""
+    return lines([("in this pose", "nearest limit", "degrees left"),
+                  *((joint["joint"], limit["motion_name"], f"{limit['left_deg']:.0f}")
+                    for joint in joints for limit in joint["limits"])], left=2)
 
 
 def _degrees(row: dict[str, Any]) -> str:
