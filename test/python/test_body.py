@@ -96,6 +96,13 @@ def test_what_is_none_is_told_and_nothing_is_written(options: str, hint: str, tm
     assert not list(tmp_path.iterdir())
 
 
+def test_defaults_and_speeds_stand_beside_the_rows_with_their_reasons(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*PERSON, "--joint", "knee"]) == 0
+    out = capsys.readouterr().out
+    assert "by default 155: knee joint, flexion: HDM05" in out
+    assert "limits of speed: motion capture of one person" in out and "Certainty: low" in out
+
+
 def test_urdf_brings_every_joint_where_the_model_has_it(tmp_path: Path,
                                                         capsys: pytest.CaptureFixture[str]) -> None:
     chance = random.Random(1)

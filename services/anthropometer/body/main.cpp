@@ -16,7 +16,6 @@
 #include "common/text/number_text.h"
 #include "services/anthropometer/body/arguments.h"
 #include "services/anthropometer/core/body_report.h"
-#include "services/anthropometer/core/json_text.h"
 #include "services/anthropometer/core/mesh.h"
 #include "services/anthropometer/core/model_file.h"
 #include "services/anthropometer/core/range_picture.h"
@@ -46,27 +45,30 @@ range_of_motion::RangeOfMotion RangeOf(const body_model::BodyModel& model,
           limits};
 }
 
-std::string Told(const Person& person, const body_model::BodyModel& model,
-                 const body_model::BodyPose& pose, const Arguments& arguments) {
+Json Told(const Person& person, const body_model::BodyModel& model,
+          const body_model::BodyPose& pose, const Arguments& arguments) {
   const ReportRequest& request = arguments.request;
-  std::vector<JsonMember> parts = {
-      {"sex", JsonString(person.sex == anthropometry::Sex::kFemale ? "female" : "male")},
-      {"stature_m", JsonNumber(person.stature_m)},
-      {"model", JsonString(model.name())}};
+  Json parts = {{"sex", person.sex == anthropometry::Sex::kFemale ? "female" : "male"},
+                {"stature_m", person.stature_m},
+                {"model", model.name()}};
   const bool is_all = request.joint.empty() && request.measure.empty();
   if (is_all || !request.measure.empty()) {
-    parts.push_back({"measures", MeasuresJson(ShippedMeasures(), person, request)});
+    parts["measures"] = MeasuresJson(ShippedMeasures(), person, request);
   }
   if (is_all) {
-    parts.push_back({"limbs", LimbsJson(model, pose)});
-    parts.push_back({"urdf_joints_rad", JointValuesJson(model, pose, arguments.body_id)});
+    parts["limbs"] = LimbsJson(model, pose);
+    parts["urdf_joints_rad"] = JointValuesJson(model, pose, arguments.body_id);
   }
   if (is_all || !request.joint.empty()) {
     const auto limits = ShippedLimits();
-    parts.push_back({"joint_limits", JointLimitsJson(limits, request)});
-    parts.push_back({"posture", PostureJson(model, RangeOf(model, limits), pose, limits, request)});
+    const auto plan = range_of_motion::LoadRangePlan(FindConfig("kinematics/range_of_motion.yaml"));
+    parts["joint_limits"] = JointLimitsJson(limits, plan, request);
+    parts["speed_limits"] = SpeedLimitsJson(
+        range_of_motion::LoadSpeedLimits(FindConfig("kinematics/joint_speeds.yaml")), limits,
+        request);
+    parts["posture"] = PostureJson(model, RangeOf(model, limits), pose, limits, request);
   }
-  return JsonObject(parts);
+  return parts;
 }
 
 void WritePicture(const Person& person, const body_model::BodyModel& model,
@@ -86,11 +88,11 @@ void Run(const Arguments& arguments) {
   const Person person = PersonOf(arguments);
   const auto model = body_model::LoadBody(FindModelFile(arguments.model), person.sizes_m);
   const body_model::BodyPose pose = PoseOf(model, arguments);
-  const std::string told = Told(person, model, pose, arguments);
+  const Json told = Told(person, model, pose, arguments);
   if (!arguments.urdf.empty()) WriteWhole(arguments.urdf, UrdfOf(model, arguments.body_id));
   if (!arguments.ply.empty()) WriteWhole(arguments.ply, PlyOf(model, pose));
   if (!arguments.png.empty()) WritePicture(person, model, pose, arguments);
-  std::cout << told << "\n";
+  std::cout << told.dump() << "\n";
 }
 
 }  // namespace

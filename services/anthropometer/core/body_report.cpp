@@ -7,7 +7,6 @@
 #include "common/body_model/body_plan.h"
 #include "common/body_model/kinematics.h"
 #include "common/config/config.h"
-#include "services/anthropometer/core/json_text.h"
 #include "services/anthropometer/core/solid.h"
 #include "services/anthropometer/core/urdf.h"
 
@@ -29,9 +28,7 @@ std::string NameOf(Enum value) {
   return {};
 }
 
-std::string VectorJson(const Vector3d& v) {
-  return JsonArray({JsonNumber(v.x()), JsonNumber(v.y()), JsonNumber(v.z())});
-}
+Json VectorJson(const Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
 /// Millimetres; nothing for what is neither estimated nor a sum of what is.
 std::optional<double> Millimetres(const BodyMeasure& measure, const Person& person) {
@@ -47,10 +44,10 @@ std::optional<double> Millimetres(const BodyMeasure& measure, const Person& pers
   return sum_mm;
 }
 
-std::string MeasureJson(const BodyMeasure& measure, double mm, anatomy::Language language) {
-  return JsonObject({{"measure", JsonString(measure.name)},
-                     {"name", JsonString(measure.names.In(language))},
-                     {"mm", JsonNumber(std::round(10.0 * mm) / 10.0)}});
+Json MeasureJson(const BodyMeasure& measure, double mm, anatomy::Language language) {
+  return Json({{"measure", measure.name},
+               {"name", measure.names.In(language)},
+               {"mm", std::round(10.0 * mm) / 10.0}});
 }
 
 [[noreturn]] void RefuseName(const std::string& option, const std::string& name,
@@ -68,48 +65,62 @@ const anatomy::NamedTerm& Named(const std::vector<anatomy::NamedTerm>& terms,
                        [&](const anatomy::NamedTerm& term) { return term.name == name; });
 }
 
-std::string RowJson(const anatomy::JointLimits& limits, const JointLimit& row,
-                    anatomy::Language language) {
-  return JsonObject(
-      {{"joint", JsonString(row.joint)},
-       {"joint_name", JsonString(Named(limits.joints(), row.joint).names.In(language))},
-       {"posture", JsonString(NameOf(row.posture))},
-       {"motion", JsonString(row.motion)},
-       {"motion_name", JsonString(Named(limits.motions(), row.motion).names.In(language))},
-       {"low_deg", JsonNumber(row.low_deg)},
-       {"high_deg", JsonNumber(row.high_deg)},
-       {"is_to_both_sides", row.is_to_both_sides ? "true" : "false"},
-       {"printed", JsonString(row.printed)},
-       {"why", JsonString(row.why)}});
+/// What the default limits add to a row; nullptr = nothing.
+const range_of_motion::AllowancePlan* AllowanceOf(const range_of_motion::RangePlan& plan,
+                                                  const JointLimit& row) {
+  for (const range_of_motion::JointPlan& joint : plan.joints) {
+    if (joint.joint != row.joint) continue;
+    for (const range_of_motion::AllowancePlan& allowance : joint.allowed_beyond) {
+      if (allowance.motion == row.motion) return &allowance;
+    }
+  }
+  return nullptr;
 }
 
-std::string LeftJson(const anatomy::JointLimits& limits, const range_of_motion::Margin& margin,
-                     anatomy::Language language) {
-  return JsonObject(
-      {{"motion", JsonString(*margin.motion)},
-       {"motion_name", JsonString(Named(limits.motions(), *margin.motion).names.In(language))},
-       {"left_deg", JsonNumber(std::round(10.0 * margin.margin_rad * kDegrees) / 10.0)}});
+Json RowJson(const anatomy::JointLimits& limits, const range_of_motion::RangePlan& plan,
+             const JointLimit& row, anatomy::Language language) {
+  const range_of_motion::AllowancePlan* allowance = AllowanceOf(plan, row);
+  return Json({{"joint", row.joint},
+               {"joint_name", Named(limits.joints(), row.joint).names.In(language)},
+               {"posture", NameOf(row.posture)},
+               {"motion", row.motion},
+               {"motion_name", Named(limits.motions(), row.motion).names.In(language)},
+               {"low_deg", row.low_deg},
+               {"high_deg", row.high_deg},
+               {"is_to_both_sides", row.is_to_both_sides},
+               {"printed", row.printed},
+               {"why", row.why},
+               {"default_deg", row.high_deg + (allowance == nullptr ? 0.0 : allowance->degrees)},
+               {"default_why", allowance == nullptr ? "" : allowance->why}});
 }
 
-std::string AnglesJson(const Limb& limb, const Eigen::VectorXd& angles_rad) {
-  std::vector<std::string> angles;
+Json LeftJson(const anatomy::JointLimits& limits, const range_of_motion::Margin& margin,
+              anatomy::Language language) {
+  return Json({{"motion", *margin.motion},
+               {"motion_name", margin.motion->empty()
+                                   ? std::string("reach")
+                                   : Named(limits.motions(), *margin.motion).names.In(language)},
+               {"left_deg", std::round(10.0 * margin.margin_rad * kDegrees) / 10.0}});
+}
+
+Json AnglesJson(const Limb& limb, const Eigen::VectorXd& angles_rad) {
+  Json angles = Json::array();
   for (std::size_t k = 0; k < limb.dofs.size(); ++k) {
     const auto& dof = limb.dofs[k];
-    angles.push_back(
-        JsonObject({{"angle", JsonString(dof.name)},
-                    {"kind", JsonString(NameOf(dof.kind))},
-                    {"min_deg", JsonNumber(dof.angle_min_rad * kDegrees)},
-                    {"max_deg", JsonNumber(dof.angle_max_rad * kDegrees)},
-                    {"deg", JsonNumber(angles_rad[static_cast<Eigen::Index>(k)] * kDegrees)}}));
+    angles.push_back(Json({{"angle", dof.name},
+                           {"kind", NameOf(dof.kind)},
+                           {"min_deg", dof.angle_min_rad * kDegrees},
+                           {"max_deg", dof.angle_max_rad * kDegrees},
+                           {"deg", angles_rad[static_cast<Eigen::Index>(k)] * kDegrees}}));
   }
-  return JsonArray(angles);
+  return angles;
 }
 
 }  // namespace
 
-std::string MeasuresJson(const anthropometry::BodyMeasures& measures, const Person& person,
-                         const ReportRequest& request) {
-  std::vector<std::string> rows;
+Json MeasuresJson(const anthropometry::BodyMeasures& measures, const Person& person,
+                  const ReportRequest& request) {
+  Json rows = Json::array();
   std::string names;
   for (const BodyMeasure& measure : measures.all()) {
     const auto mm = Millimetres(measure, person);
@@ -122,13 +133,14 @@ std::string MeasuresJson(const anthropometry::BodyMeasures& measures, const Pers
     rows.push_back(MeasureJson(measure, *mm, request.language));
   }
   if (rows.empty()) RefuseName("measure", request.measure, names);
-  return JsonArray(rows);
+  return rows;
 }
 
-std::string JointLimitsJson(const anatomy::JointLimits& limits, const ReportRequest& request) {
-  std::vector<std::string> rows;
+Json JointLimitsJson(const anatomy::JointLimits& limits, const range_of_motion::RangePlan& plan,
+                     const ReportRequest& request) {
+  Json rows = Json::array();
   for (const JointLimit& row : request.joint.empty() ? limits.rows() : limits.Of(request.joint)) {
-    rows.push_back(RowJson(limits, row, request.language));
+    rows.push_back(RowJson(limits, plan, row, request.language));
   }
   if (rows.empty()) {
     std::string names;
@@ -137,13 +149,30 @@ std::string JointLimitsJson(const anatomy::JointLimits& limits, const ReportRequ
     }
     RefuseName("joint", request.joint, names);
   }
-  return JsonArray(rows);
+  return rows;
 }
 
-std::string LimbsJson(const body_model::BodyModel& model, const body_model::BodyPose& pose) {
+Json SpeedLimitsJson(const range_of_motion::SpeedLimits& speeds, const anatomy::JointLimits& limits,
+                     const ReportRequest& request) {
+  Json joints = Json::array();
+  for (const range_of_motion::JointSpeed& speed : speeds.joints) {
+    const auto& term = Named(limits.joints(), speed.joint);
+    if (!request.joint.empty() && request.joint != term.name && !term.names.Match(request.joint)) {
+      continue;
+    }
+    joints.push_back({{"joint", speed.joint},
+                      {"joint_name", term.names.In(request.language)},
+                      {"speed_deg_per_s", speed.speed_deg_per_s},
+                      {"acceleration_deg_per_s2", speed.acceleration_deg_per_s2}});
+  }
+  return Json{
+      {"derived_from", speeds.derived_from}, {"certainty", speeds.certainty}, {"joints", joints}};
+}
+
+Json LimbsJson(const body_model::BodyModel& model, const body_model::BodyPose& pose) {
   body_model::Kinematics kinematics(model);
   kinematics.Update(pose);
-  std::vector<std::string> limbs;
+  Json limbs = Json::array();
   for (int i = 0; i < model.limb_count(); ++i) {
     const Limb& limb = model.limbs()[static_cast<std::size_t>(i)];
     const auto& shape = limb.shape;
@@ -151,53 +180,51 @@ std::string LimbsJson(const body_model::BodyModel& model, const body_model::Body
         limb.parent < 0 ? "" : model.limbs()[static_cast<std::size_t>(limb.parent)].name;
     const auto angles =
         pose.angles_rad.segment(model.first_angle(i), static_cast<Eigen::Index>(limb.dofs.size()));
-    limbs.push_back(JsonObject(
-        {{"limb", JsonString(limb.name)},
-         {"parent", JsonString(parent)},
-         {"length_m", JsonNumber(shape.length_m)},
-         {"proximal_semi_axes_m", JsonArray({JsonNumber(shape.a0_m), JsonNumber(shape.b0_m)})},
-         {"distal_semi_axes_m", JsonArray({JsonNumber(shape.a1_m), JsonNumber(shape.b1_m)})},
-         {"volume_m3", JsonNumber(SolidOf(shape).volume_m3)},
-         {"proximal_joint_m", VectorJson(kinematics.proximal_m(i))},
-         {"distal_end_m", VectorJson(kinematics.distal_m(i))},
-         {"angles", AnglesJson(limb, angles)}}));
+    limbs.push_back(Json({{"limb", limb.name},
+                          {"parent", parent},
+                          {"length_m", shape.length_m},
+                          {"proximal_semi_axes_m", Json::array({shape.a0_m, shape.b0_m})},
+                          {"distal_semi_axes_m", Json::array({shape.a1_m, shape.b1_m})},
+                          {"volume_m3", SolidOf(shape).volume_m3},
+                          {"proximal_joint_m", VectorJson(kinematics.proximal_m(i))},
+                          {"distal_end_m", VectorJson(kinematics.distal_m(i))},
+                          {"angles", AnglesJson(limb, angles)}}));
   }
-  return JsonArray(limbs);
+  return limbs;
 }
 
-std::string PostureJson(const body_model::BodyModel& model,
-                        const range_of_motion::RangeOfMotion& range,
-                        const body_model::BodyPose& pose, const anatomy::JointLimits& limits,
-                        const ReportRequest& request) {
+Json PostureJson(const body_model::BodyModel& model, const range_of_motion::RangeOfMotion& range,
+                 const body_model::BodyPose& pose, const anatomy::JointLimits& limits,
+                 const ReportRequest& request) {
   body_model::Kinematics kinematics(model);
   kinematics.Update(pose);
   std::vector<range_of_motion::JointState> states;
   range.Check(kinematics, states);
-  std::vector<std::string> joints;
+  Json joints = Json::array();
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto& term = Named(limits.joints(), range.joints()[i].joint.joint());
     if (!request.joint.empty() && request.joint != term.name && !term.names.Match(request.joint)) {
       continue;
     }
-    std::vector<std::string> left;
+    Json left = Json::array();
     for (int k = 0; k < states[i].margins.count; ++k) {
       const auto& margin = states[i].margins.each[static_cast<std::size_t>(k)];
       if (margin.motion != nullptr) left.push_back(LeftJson(limits, margin, request.language));
     }
-    joints.push_back(JsonObject({{"joint", JsonString(range.joints()[i].Name())},
-                                 {"joint_name", JsonString(term.names.In(request.language))},
-                                 {"limits", JsonArray(left)}}));
+    joints.push_back(Json({{"joint", range.joints()[i].Name()},
+                           {"joint_name", term.names.In(request.language)},
+                           {"limits", left}}));
   }
-  return JsonArray(joints);
+  return joints;
 }
 
-std::string JointValuesJson(const body_model::BodyModel& model, const body_model::BodyPose& pose,
-                            const std::string& body_id) {
-  std::vector<JsonMember> members;
+Json JointValuesJson(const body_model::BodyModel& model, const body_model::BodyPose& pose,
+                     const std::string& body_id) {
+  Json members = Json::object();
   for (const auto& value : JointValues(model, UrdfJoints(model, body_id), pose)) {
-    members.push_back({value.joint, JsonNumber(value.angle_rad)});
+    members[value.joint] = value.angle_rad;
   }
-  return JsonObject(members);
+  return members;
 }
 
 }  // namespace deixis::anthropometer

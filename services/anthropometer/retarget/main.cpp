@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "common/body_model/kinematics.h"
 #include "common/config/config.h"
@@ -10,13 +11,13 @@
 #include "common/program/command_line.h"
 #include "common/range_of_motion/range_of_motion.h"
 #include "common/retargeting/to_clip.h"
-#include "services/anthropometer/core/json_text.h"
 #include "services/anthropometer/core/recording.h"
 
 namespace deixis::anthropometer {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 using retargeting::Retargeted;
 
 struct Arguments {
@@ -46,17 +47,17 @@ Arguments Parse(int argc, char** argv) {
   return arguments;
 }
 
-std::string LimbsJson(const Retargeted& recording) {
+Json LimbsJson(const Retargeted& recording) {
   const body_model::BodyModel& model = recording.motion.model;
-  std::vector<std::string> limbs;
+  Json limbs = Json::array();
   for (const retargeting::JointError& error : recording.errors) {
     const auto limb = static_cast<std::size_t>(*model.Find(error.limb));
-    limbs.push_back(JsonObject({{"limb", JsonString(error.limb)},
-                                {"length_m", JsonNumber(model.limbs()[limb].shape.length_m)},
-                                {"mean_error_m", JsonNumber(error.mean_m)},
-                                {"largest_error_m", JsonNumber(error.largest_m)}}));
+    limbs.push_back(Json({{"limb", error.limb},
+                          {"length_m", model.limbs()[limb].shape.length_m},
+                          {"mean_error_m", error.mean_m},
+                          {"largest_error_m", error.largest_m}}));
   }
-  return JsonArray(limbs);
+  return limbs;
 }
 
 /// Frames of one joint beyond one limit.
@@ -65,7 +66,7 @@ struct Excess {
   double worst_rad = 0.0;
 };
 
-std::string LimitsJson(const Retargeted& recording) {
+Json LimitsJson(const Retargeted& recording) {
   const auto rows = anatomy::JointLimits::Load(config::FindConfig("kinematics/joint_limits.yaml"));
   const auto plan =
       range_of_motion::LoadRangePlan(config::FindConfig("kinematics/range_of_motion.yaml"));
@@ -86,33 +87,33 @@ std::string LimitsJson(const Retargeted& recording) {
       }
     }
   }
-  std::vector<std::string> rows_beyond;
+  Json rows_beyond = Json::array();
   for (const auto& [cause, excess] : beyond) {
-    rows_beyond.push_back(JsonObject({{"joint", JsonString(cause.first)},
-                                      {"motion", JsonString(cause.second)},
-                                      {"frames", std::to_string(excess.frames)},
-                                      {"worst_deg", JsonNumber(excess.worst_rad * 180.0 / M_PI)}}));
+    rows_beyond.push_back(Json({{"joint", cause.first},
+                                {"motion", cause.second},
+                                {"frames", excess.frames},
+                                {"worst_deg", excess.worst_rad * 180.0 / M_PI}}));
   }
-  return JsonArray(rows_beyond);
+  return rows_beyond;
 }
 
-std::string Told(const Retargeted& recording) {
-  std::vector<std::string> at_rest;
-  for (const std::string& limb : recording.at_rest) at_rest.push_back(JsonString(limb));
-  return JsonObject({{"model", JsonString(recording.motion.model.name())},
-                     {"frames", std::to_string(recording.motion.poses.size())},
-                     {"frame_rate_hz", JsonNumber(recording.motion.frame_rate_hz)},
-                     {"limbs", LimbsJson(recording)},
-                     {"at_rest", JsonArray(at_rest)},
-                     {"beyond_limits", LimitsJson(recording)}});
+Json Told(const Retargeted& recording) {
+  Json at_rest = Json::array();
+  for (const std::string& limb : recording.at_rest) at_rest.push_back(limb);
+  return Json({{"model", recording.motion.model.name()},
+               {"frames", recording.motion.poses.size()},
+               {"frame_rate_hz", recording.motion.frame_rate_hz},
+               {"limbs", LimbsJson(recording)},
+               {"at_rest", at_rest},
+               {"beyond_limits", LimitsJson(recording)}});
 }
 
 void Run(const Arguments& arguments) {
   const Retargeted recording =
       RecordingReader(arguments.model, arguments.clip).Read(arguments.motion);
-  const std::string told = Told(recording);
+  const Json told = Told(recording);
   if (!arguments.bvh.empty()) motion::WriteBvh(ToClip(recording.motion), arguments.bvh);
-  std::cout << told << "\n";
+  std::cout << told.dump() << "\n";
 }
 
 }  // namespace

@@ -92,7 +92,8 @@ def _options(arguments: argparse.Namespace) -> list[str]:
 def _text(report: dict[str, Any], *, with_posture: bool) -> list[str]:
     """The report as people read it: a heading and the tables that are there."""
     text = [f"{report['sex']}, {report['stature_m']:.3f} m, {report['model']}"]
-    tables = {"measures": _measures, "limbs": _limbs, "joint_limits": _joint_limits}
+    tables = {"measures": _measures, "limbs": _limbs, "joint_limits": _joint_limits,
+              "speed_limits": _speed_limits}
     if with_posture:
         tables["posture"] = _posture
     for part, table in tables.items():
@@ -122,12 +123,24 @@ def _limb(limb: dict[str, Any]) -> tuple[str, str, str, str, str]:
 
 
 def _joint_limits(rows: list[dict[str, Any]]) -> list[str]:
-    table = lines([("joint", "posture", "motion", "degrees"),
-                   *((row["joint_name"], row["posture"], row["motion_name"], _degrees(row))
-                     for row in rows)], left=3)
-    notes = [f"corrected: {row['joint_name']}, {row['motion_name']}: the source prints"
+    table = lines([("joint", "posture", "motion", "degrees", "by default"),
+                   *((row["joint_name"], row["posture"], row["motion_name"], _degrees(row),
+                      f"{row['default_deg']:g}") for row in rows)], left=3)
+    notes = [f"by default {row['default_deg']:g}: {row['joint_name']}, {row['motion_name']}:"
+             f" {row['default_why']}" for row in rows if row["default_why"]]
+    notes += [f"corrected: {row['joint_name']}, {row['motion_name']}: the source prints"
              f" \"{row['printed']}\": {row['why']}" for row in rows if row["printed"]]
     return table + ([""] if notes else []) + notes
+
+
+def _speed_limits(speeds: dict[str, Any]) -> list[str]:
+    """Degrees per second and per second squared, with what they rest on."""
+    if not speeds["joints"]:
+        return ["limits of speed: none known"]
+    table = lines([("joint", "degrees/s", "degrees/s2"),
+                   *((row["joint_name"], f"{row['speed_deg_per_s']:g}", f"{row['acceleration_deg_per_s2']:g}")
+                     for row in speeds["joints"])])
+    return [*table, "", f"limits of speed: {speeds['derived_from']}. Certainty: {speeds['certainty']}"]
 
 
 def _posture(joints: list[dict[str, Any]]) -> list[str]:
