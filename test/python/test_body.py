@@ -31,7 +31,7 @@ def test_sizes_limbs_and_limits_are_told_in_the_asked_language(capsys: pytest.Ca
     assert main([*PERSON, "--language", "de"]) == 0
     text = capsys.readouterr().out
     assert text.startswith("female, 1.680 m, whole_body_detailed\n")
-    for line in (["kph", "Körperhöhe", "1680"], ["Kniegelenk", "stretched", "Beugen", "120-150"]):
+    for line in (["kph", "Körperhöhe", "1680"], ["Kniegelenk", "stretched", "Beugen", "120-150", "155"]):
         assert line in [row.split() for row in text.splitlines()]
     assert "right_lower_arm" in text
     assert 'corrected: Kniegelenk, Beugen: the source prints "Flexion 5° - 10°"' in text
