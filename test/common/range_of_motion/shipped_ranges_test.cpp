@@ -6,6 +6,7 @@
 #include "common/body_model/joint_angles.h"
 #include "common/range_of_motion/range_of_motion.h"
 #include "test/common/range_of_motion/range_samples.h"
+#include "test/support/allocation_count.h"
 
 namespace deixis::range_of_motion {
 namespace {
@@ -128,6 +129,19 @@ TEST(ShippedRanges, BoundRotationsThatAStretchedElbowCannotTellApartByTheirSum) 
   EXPECT_GT(RotationMargin_deg("right_shoulder", 10.0, 110.0, -120.0), 0.0);
   EXPECT_NEAR(RotationMargin_deg("right_shoulder", 60.0, 110.0, -120.0), -30.0, 1e-6);
   EXPECT_NEAR(RotationMargin_deg("right_elbow", 10.0, 100.0, 100.0), -10.0, 1e-6);
+}
+
+TEST(ShippedRanges, AreCheckedWithoutTakingMemory) {
+  const BodyModel body = ShippedBody("whole_body_detailed");
+  const RangeOfMotion ranges(body, ShippedRanges(), ShippedRows());
+  const BodyPose pose = Standing(body);
+  Kinematics kinematics(body);
+  std::vector<JointState> states;
+  ranges.Check(kinematics, states);
+  const std::size_t before = test::AllocatedBytes();
+  kinematics.Update(pose);
+  ranges.Check(kinematics, states);
+  EXPECT_EQ(test::AllocatedBytes(), before);
 }
 
 }  // namespace
