@@ -1,4 +1,6 @@
 #pragma once
+#include <Eigen/Core>
+#include <array>
 #include <filesystem>
 
 #include "common/motion/motion_text.h"
@@ -15,6 +17,9 @@ struct BvhOptions {
 /// positions on any joint (which add to its offset). Joints keep the file's order. Throws
 /// MotionFileError.
 Clip ReadBvh(const std::filesystem::path& path, const BvhOptions& options = {});
+
+/// Angles about Z, X and Y, radians, whose product Rz Rx Ry is `rotation`, singular ones too.
+std::array<double, 3> AnglesZxy(const Eigen::Matrix3d& rotation);
 
 /// The same motion in what BVH can say: rotations of each joint by Z, X and Y, positions of roots
 /// and of joints that have them, no pre- and rest rotations. Where there are positions the offset

@@ -37,15 +37,6 @@ Joint InBvhChannels(const Joint& joint) {
   return bvh;
 }
 
-/// Angles of Rz Rx Ry. Where Z and Y turn about one axis any Z serves: X and Y are taken from what
-/// it leaves, so that the product is right.
-std::array<double, 3> AnglesZxy(const Eigen::Matrix3d& rotation) {
-  const double z_rad = std::atan2(-rotation(0, 1), rotation(1, 1));
-  const Eigen::Matrix3d left =
-      Eigen::AngleAxisd(-z_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix() * rotation;
-  return {z_rad, std::atan2(left(2, 1), left(1, 1)), std::atan2(left(0, 2), left(0, 0))};
-}
-
 /// Throws std::logic_error for what BVH cannot say.
 void RequireBvh(const Clip& clip) {
   const auto require = [](bool holds, const std::string& fault) {
@@ -221,6 +212,15 @@ void WriteWhole(const std::string& text, const fs::path& path) {
 }
 
 }  // namespace
+
+// Where Z and Y turn about one axis any Z serves: X and Y are taken from what it leaves, so that
+// the product is right.
+std::array<double, 3> AnglesZxy(const Eigen::Matrix3d& rotation) {
+  const double z_rad = std::atan2(-rotation(0, 1), rotation(1, 1));
+  const Eigen::Matrix3d left =
+      Eigen::AngleAxisd(-z_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix() * rotation;
+  return {z_rad, std::atan2(left(2, 1), left(1, 1)), std::atan2(left(0, 2), left(0, 0))};
+}
 
 Clip ToBvhChannels(const Clip& clip) {
   Clip bvh;

@@ -108,7 +108,12 @@ void AnatomicalJoint::BuildReach(const ReachPlan& plan, const std::vector<Bound>
   std::vector<ReachCone::Knot> knots;
   for (std::size_t i = 0; i < by_knot.size(); ++i) {
     Vector3d towards = parent_from_neutral_.transpose() * Mirrored(plan.knots[i].towards, side_);
-    towards = Vector3d(towards.x(), towards.y(), 0.0).normalized();
+    towards.z() = 0.0;
+    if (towards.norm() < 1e-3) {
+      throw config::ConfigError("joint '" + joint_ +
+                                "': reach.knots: towards must not be parallel to neutral_z");
+    }
+    towards.normalize();
     const double angle_rad = by_knot[i].straight.high_rad;
     const Vector3d direction =
         std::cos(angle_rad) * Vector3d::UnitZ() + std::sin(angle_rad) * towards;
@@ -167,6 +172,8 @@ Matrix3d AnatomicalJoint::Orientation(const AnatomicalAngles& angles) const {
 double AnatomicalJoint::FlexionOf(const AnatomicalAngles& angles) const {
   return reach_.empty() ? angles[0] : 0.0;
 }
+
+bool AnatomicalJoint::HasRotation() const { return !axes_.empty() && axes_.back().coordinate == 2; }
 
 AnatomicalJoint::Rotation AnatomicalJoint::RotationOf(const AnatomicalAngles& angles,
                                                       Load load) const {

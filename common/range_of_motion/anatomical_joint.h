@@ -42,7 +42,7 @@ struct Margins {
 class AnatomicalJoint {
  public:
   /// Throws ConfigError naming the joint when `limits` lacks a row, knots are too far apart, or a
-  /// neutral direction is parallel to the other.
+  /// neutral direction is parallel to the other or to the direction of a knot.
   AnatomicalJoint(const JointPlan& plan, BodySide side, const anatomy::JointLimits& rows,
                   Limits limits);
 
@@ -60,6 +60,8 @@ class AnatomicalJoint {
   AnatomicalAngles Measure(const Eigen::Matrix3d& parent_from_limb) const;
   /// The orientation with these angles: the inverse of Measure.
   Eigen::Matrix3d Orientation(const AnatomicalAngles& angles) const;
+  /// Whether it turns about the limb itself.
+  bool HasRotation() const;
   /// The last angle, about the limb itself, and between what it may turn.
   struct Rotation {
     double angle_rad = 0.0, least_rad = 0.0, most_rad = 0.0;

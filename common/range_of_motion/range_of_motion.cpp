@@ -57,7 +57,8 @@ RangeOfMotion::RangeOfMotion(const BodyModel& model, const RangePlan& plan,
   for (ModelJoint& joint : joints_) {
     if (joint.shares_below_rad == 0.0) continue;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
-      if (joints_[i].limb == joint.parent) joint.shares_with = static_cast<int>(i);
+      if (joints_[i].limb == joint.parent && joints_[i].joint.HasRotation())
+        joint.shares_with = static_cast<int>(i);
     }
   }
 }

@@ -35,6 +35,19 @@ bool IsOrderOfAngles(const std::vector<AnglePlan>& angles, bool has_reach) {
   return true;
 }
 
+bool Moves(const JointPlan& plan, const std::string& motion) {
+  const auto by_angle = [&motion](const AnglePlan& angle) {
+    return angle.positive == motion || angle.negative == motion;
+  };
+  const auto by_knot = [&motion](const KnotPlan& knot) { return knot.motion == motion; };
+  return std::any_of(plan.angles.begin(), plan.angles.end(), by_angle) ||
+         std::any_of(plan.reach.knots.begin(), plan.reach.knots.end(), by_knot);
+}
+
+bool HasRotation(const JointPlan& plan) {
+  return !plan.angles.empty() && CoordinateOf(plan.angles.back().axis) == 2;
+}
+
 }  // namespace
 
 void LimbShare::Validate() const {
@@ -88,6 +101,12 @@ void JointPlan::Validate() const {
   faults.Require(has_reach || !angles.empty(), "angles", "must not be empty without a reach");
   faults.Require(shares_rotation_below_deg >= 0.0 && shares_rotation_below_deg <= 45.0,
                  "shares_rotation_below_deg", "must lie in 0..45");
+  faults.Require(shares_rotation_below_deg == 0.0 || HasRotation(*this),
+                 "shares_rotation_below_deg", "must stand only where the last angle is about z");
+  for (const AllowancePlan& allowance : allowed_beyond) {
+    faults.Require(Moves(*this, allowance.motion), "allowed_beyond",
+                   "'" + allowance.motion + "' is no motion of this joint");
+  }
   faults.ThrowIfAny();
 }
 

@@ -77,6 +77,14 @@ void LimbSource::Validate() const {
   faults.ThrowIfAny();
 }
 
+void SkeletonMap::Validate() const {
+  config::Faults faults;
+  const bool has_sides = std::any_of(
+      limbs.begin(), limbs.end(), [](const LimbSource& limb) { return limb.side == Sides::kBoth; });
+  faults.Require(!has_sides || right != left, "left", "must not be the same as 'right'");
+  faults.ThrowIfAny();
+}
+
 SkeletonMap LoadSkeletonMap(const std::filesystem::path& path) {
   return config::Load<SkeletonMap>(path);
 }

@@ -1,10 +1,11 @@
 #include "common/retargeting/to_clip.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "common/body_model/joint_angles.h"
 #include "common/body_model/kinematics.h"
+#include "common/motion/bvh.h"
 
 namespace deixis::retargeting {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 using body_model::BodyModel;
 using body_model::Kinematics;
 using Eigen::Matrix3d;
-using Eigen::Vector3d;
 using motion::ChannelKind;
 
 /// x left, y up, z forward, as most motion files.
@@ -20,12 +20,6 @@ Matrix3d FileFromBody() {
   Matrix3d axes;
   axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;
   return axes;
-}
-
-/// Angles about z, x, y of Rz Rx Ry.
-Vector3d ZxyAngles(const Matrix3d& r) {
-  return {std::atan2(-r(0, 1), r(1, 1)), std::asin(std::clamp(r(2, 1), -1.0, 1.0)),
-          std::atan2(-r(2, 0), r(2, 2))};
 }
 
 motion::Skeleton SkeletonOf(const BodyModel& model, const Kinematics& standing) {
@@ -78,7 +72,8 @@ motion::Clip ToClip(const BodyMotion& motion) {
              file_from_body.transpose();
       const Matrix3d local =
           parent < 0 ? turn : turned[static_cast<std::size_t>(parent)].transpose() * turn;
-      clip.frames.row(frame).segment<3>(3 + 3 * i) = ZxyAngles(local).transpose();
+      const std::array<double, 3> angles_rad = motion::AnglesZxy(local);
+      std::copy(angles_rad.begin(), angles_rad.end(), &clip.frames(frame, 3 + 3 * i));
     }
   }
   return clip;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "common/config/config.h"
 #include "test/common/range_of_motion/range_samples.h"
 
 namespace deixis::range_of_motion {
@@ -193,6 +194,15 @@ INSTANTIATE_TEST_SUITE_P(OfTheSource, EveryElevation,
                                          Elevation{"abduction", 90, 180},
                                          Elevation{"extension", 180, 40},
                                          Elevation{"adduction", -90, 40}));
+
+TEST(AnatomicalJoint, RefusesAKnotAlongTheNeutralLimb) {
+  for (JointPlan joint : ShippedRanges().joints) {
+    if (joint.joint != "shoulder") continue;
+    joint.reach.knots[1].towards = {0.0, 0.0, 2.0};
+    EXPECT_THROW(AnatomicalJoint(joint, BodySide::kRight, ShippedRows(), Limits::kSource),
+                 config::ConfigError);
+  }
+}
 
 TEST(AnatomicalJoint, AllowsMoreByDefaultWhereItsPlanSaysSo) {
   JointPlan plan = PlanOf("elbow");

@@ -55,6 +55,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Broken{"NoMotion", "positive: flexion", "positive: ''", "positive"},
                     Broken{"UnknownKey", "neutral_x", "neutral_w", "neutral_w"},
                     Broken{"NoAngles", "      - {name", "      # - {name", "angles"},
+                    Broken{"AllowanceOfNoMotion", "    angles:",
+                           "    allowed_beyond: [{motion: flexoin, degrees: 5, why: seen}]\n"
+                           "    angles:",
+                           "flexoin"},
+                    Broken{"SharesNoRotation",
+                           "    angles:", "    shares_rotation_below_deg: 20\n    angles:",
+                           "shares_rotation_below_deg"},
                     Broken{"Text", "share: 1", "share: many", "share"},
                     Broken{"FewKnots", "    angles:",
                            "    reach: {rest_z: [0, 1, 0], knots: [{motion: flexion, towards: [1, "

@@ -123,6 +123,17 @@ double RotationMargin_deg(const std::string& name, double elbow_deg, double pron
   throw std::logic_error("no joint " + name);
 }
 
+TEST(ShippedRanges, KeepTheReachOfAShoulderThatHasNoRotationToShare) {
+  RangePlan plan = ShippedRanges();
+  for (JointPlan& joint : plan.joints) {
+    if (joint.joint != "shoulder") continue;
+    joint.angles.clear();
+    joint.allowed_beyond.clear();
+  }
+  const RangeOfMotion ranges(ShippedBody("whole_body"), plan, ShippedRows());
+  for (const ModelJoint& joint : ranges.joints()) EXPECT_EQ(joint.shares_with, -1) << joint.Name();
+}
+
 TEST(ShippedRanges, BoundRotationsThatAStretchedElbowCannotTellApartByTheirSum) {
   EXPECT_NEAR(RotationMargin_deg("right_elbow", 60.0, 100.0, -50.0), -10.0, 1e-6);
   EXPECT_GT(RotationMargin_deg("right_elbow", 10.0, 100.0, -50.0), 0.0);

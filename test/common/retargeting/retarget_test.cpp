@@ -69,6 +69,21 @@ TEST_P(WholeBodies, ComeBackFromTheClipsThatTheyAreWrittenTo) {
   }
 }
 
+TEST(ToClip, TurnsRightWhereTwoAnglesTurnAboutOneAxis) {
+  Eigen::Matrix3d prone;  // And rolled: up becomes backward, forward becomes left.
+  prone << 0, 0, -1, 1, 0, 0, 0, -1, 0;
+  BodyMotion motion{ShippedBody("whole_body"), 30.0, {}};
+  motion.poses.push_back(Standing(motion.model));
+  motion.poses.back().frame_from_root = {Eigen::Quaterniond(prone), Vector3d::Zero()};
+  const motion::Clip clip = ToClip(motion);
+  const auto turned = ForwardKinematics(clip.skeleton, clip.frames.row(0).transpose());
+  Eigen::Matrix3d file_from_body;
+  file_from_body << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  for (const auto& joint : turned) {
+    EXPECT_LT((file_from_body.transpose() * joint.linear() * file_from_body - prone).norm(), 1e-9);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(OfTheShipped, WholeBodies,
                          testing::Values("whole_body", "whole_body_detailed"));
 

@@ -72,5 +72,19 @@ TEST(SkeletonMap, RefusesALimbOnBothSidesWithOneJoint) {
   }
 }
 
+TEST(SkeletonMap, RefusesBothSidesOfOneName) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.Write("map.yaml",
+                                 "name: m\nright: r\nleft: r\nlimbs:\n"
+                                 "  - {limb: hand, side: both, joint: \"{side}hand\"}\n");
+  try {
+    LoadSkeletonMap(path);
+    FAIL();
+  } catch (const config::ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("map.yaml"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("left"));
+  }
+}
+
 }  // namespace
 }  // namespace deixis::retargeting
