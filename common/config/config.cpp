@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "common/config/yaml_document.h"
@@ -221,6 +222,24 @@ fs::path FindConfig(const std::string& name) {
     searched += (searched.empty() ? "" : ", ") + tried;
   }
   throw ConfigError("configuration file '" + name + "' not found; searched: " + searched);
+}
+
+std::vector<fs::path> FindConfigs(const std::string& folder) {
+  std::map<std::string, fs::path> found;
+  std::string searched;
+  for (const fs::path& place : PlacesOf(folder)) {
+    std::error_code none;
+    for (fs::directory_iterator at(place, none), end; !none && at != end; at.increment(none)) {
+      if (at->path().extension() == ".yaml") found.emplace(at->path().filename(), at->path());
+    }
+    searched += (searched.empty() ? "" : ", ") + place.string();
+  }
+  if (found.empty()) {
+    throw ConfigError("no configuration files in '" + folder + "'; searched: " + searched);
+  }
+  std::vector<fs::path> files;
+  for (const auto& [name, file] : found) files.push_back(file);
+  return files;
 }
 
 fs::path FindConfig(const std::string& name, const std::string& cure) {

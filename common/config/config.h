@@ -167,6 +167,11 @@ T Load(const std::filesystem::path& path, const std::vector<std::string>& overri
 /// ConfigError as OpenFile does.
 std::string PlaceOf(const std::filesystem::path& path, const std::string& key);
 
+/// All files of a folder of configurations ("skeletons") that end in .yaml, from all places that
+/// FindConfig searches, by name; of two of one name the first. Throws ConfigError listing the
+/// places when there are none.
+std::vector<std::filesystem::path> FindConfigs(const std::string& folder);
+
 /// Where a shipped configuration file lies: `name` itself if it is a path that exists, else under
 /// $DEIXIS_CONFIG_DIR, else beside the installed or built program (../share/deixis/config), else
 /// the source tree. Throws ConfigError listing the places that were searched, or naming what lies

@@ -14,8 +14,8 @@ struct BvhOptions {
 };
 
 /// Reads a Biovision hierarchy file: several roots, 0 to 6 channels per joint in any order,
-/// positions on any joint (which add to its offset). Joints keep the file's order. Throws
-/// MotionFileError.
+/// positions on any joint: they add to its offset, or, where they lie nearer to it than to zero,
+/// take its place (programs differ). Joints keep the file's order. Throws MotionFileError.
 Clip ReadBvh(const std::filesystem::path& path, const BvhOptions& options = {});
 
 /// Angles about Z, X and Y, radians, whose product Rz Rx Ry is `rotation`, singular ones too.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <set>
@@ -222,6 +223,32 @@ FrameMatrix ReadFrames(MotionText& text, const std::vector<Column>& columns, std
   return table.Matrix();
 }
 
+/// Some programs write a joint's place in its parent into its position channels, others only by how
+/// much it differs from OFFSET. Those that come nearer to OFFSET than to zero, on the average, are
+/// places: OFFSET is taken from them. Roots are left alone, whose OFFSET moves the whole body.
+void TakeOffsetsFromPlaces(Clip& clip) {
+  Eigen::Index column = 0;
+  for (const Joint& joint : clip.skeleton.joints) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    std::array<Eigen::Index, 3> columns{-1, -1, -1};
+    for (const ChannelKind kind : joint.channels) {
+      if (IsTranslation(kind)) {
+        const auto axis = static_cast<std::size_t>(kind);
+        columns[axis] = column;
+        mean[static_cast<Eigen::Index>(axis)] = clip.frames.col(column).mean();
+      }
+      ++column;
+    }
+    const bool is_place = joint.parent >= 0 && (mean - joint.offset_m).norm() < mean.norm();
+    if (!is_place) continue;
+    for (std::size_t axis = 0; axis < columns.size(); ++axis) {
+      if (columns[axis] >= 0) {
+        clip.frames.col(columns[axis]).array() -= joint.offset_m[static_cast<Eigen::Index>(axis)];
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Clip ReadBvh(const std::filesystem::path& path, const BvhOptions& options) {
@@ -233,6 +260,7 @@ Clip ReadBvh(const std::filesystem::path& path, const BvhOptions& options) {
   clip.frame_rate_hz = TakeFrameRate(text);
   const Scales scales{options.metres_per_unit, kRadiansPerDegree};
   clip.frames = ReadFrames(text, ColumnsOf(clip.skeleton, scales), frames);
+  TakeOffsetsFromPlaces(clip);
   return clip;
 }
 

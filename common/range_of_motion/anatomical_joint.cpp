@@ -15,6 +15,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kRadiansPerDegree = M_PI / 180.0;
+/// A standing person's knee is at its limit of rotation, not beyond it.
+constexpr double kRounding_rad = 1e-9;
 
 Vector3d Mirrored(const std::vector<double>& direction, BodySide side) {
   return {direction[0], side == BodySide::kLeft ? -direction[1] : direction[1], direction[2]};
@@ -186,7 +188,8 @@ AnatomicalJoint::Rotation AnatomicalJoint::RotationOf(const AnatomicalAngles& an
 
 Margins AnatomicalJoint::Check(const AnatomicalAngles& angles, Load load) const {
   Margins margins;
-  const auto add = [&margins](const Margin& margin) {
+  const auto add = [&margins](Margin margin) {
+    if (std::abs(margin.margin_rad) < kRounding_rad) margin.margin_rad = 0.0;
     margins.each[static_cast<std::size_t>(margins.count++)] = margin;
   };
   if (!reach_.empty()) {

@@ -30,7 +30,7 @@ struct Margin {
   const std::string* motion = nullptr;  ///< Key in joint_limits.yaml of the limit that is nearest.
   double angle_rad = 0.0;   ///< In the direction of that motion; of a cone from its rest direction.
   double limit_rad = 0.0;   ///< What is possible there.
-  double margin_rad = 0.0;  ///< limit - angle: negative beyond the limit.
+  double margin_rad = 0.0;  ///< limit - angle: negative beyond the limit; 0 within rounding.
 };
 
 struct Margins {

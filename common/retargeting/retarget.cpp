@@ -25,6 +25,8 @@ using Eigen::Vector3d;
 
 constexpr double kBentEnough_rad = 15.0 * M_PI / 180.0;
 constexpr double kShortest_m = 0.01;
+/// Times the average person: people of 0.85 m to 2.5 m.
+constexpr double kSmallest = 0.5, kLargest = 1.5;
 
 const Limb& LimbAt(const BodyModel& model, int limb) {
   return model.limbs()[static_cast<std::size_t>(limb)];
@@ -198,7 +200,12 @@ double ScaleOf(LimbPaths& paths, const BodyModel& model) {
   if (of_file_m < kShortest_m) {
     throw config::ConfigError("the motion's limbs have no length");
   }
-  return of_file_m / of_model_m;
+  const double scale = of_file_m / of_model_m;
+  if (scale < kSmallest || scale > kLargest) {
+    throw config::ConfigError("its limbs are " + std::to_string(scale) +
+                              " times as long as usual: is the unit of its lengths another one?");
+  }
+  return scale;
 }
 
 std::vector<Limb> Scaled(std::vector<Limb> limbs, double scale) {
@@ -224,10 +231,10 @@ Vector3d BaseOrigin_m(const LimbPaths& paths, const BodyModel& model) {
 }
 
 /// Of its bone; of a limb that does not stand along it the part that goes its way.
-double LengthOf_m(const LimbPaths& paths, int limb) {
+double LengthOf_m(const LimbPaths& paths, int limb, const Vector3d& start_m) {
   const auto end_m = paths.End_m(limb);
   if (!end_m) return 0.0;
-  const Vector3d bone = *end_m - paths.Start_m(limb);
+  const Vector3d bone = *end_m - start_m;
   return paths.IsBone(limb) ? bone.norm() : bone.dot(paths.Orientation(limb).col(2));
 }
 
@@ -249,7 +256,7 @@ std::vector<Limb> Measured(LimbPaths& paths, const BodyModel& model) {
         offsets_m[i] +=
             share * (paths.Orientation(parent).transpose() * (paths.Start_m(limb) - from_m));
       }
-      if (limb > 0) lengths_m[i] += share * LengthOf_m(paths, limb);
+      lengths_m[i] += share * LengthOf_m(paths, limb, limb == 0 ? base_m : paths.Start_m(limb));
     }
   }
   for (std::size_t i = 0; i < limbs.size(); ++i) {

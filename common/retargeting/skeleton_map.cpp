@@ -48,13 +48,11 @@ DrivenLimb BindOne(const LimbSource& source, const motion::Skeleton& skeleton,
   return driven;
 }
 
-bool HasBothSides(const std::vector<DrivenLimb>& limbs) {
-  const auto has = [&limbs](const std::string& name) {
-    return std::any_of(limbs.begin(), limbs.end(),
-                       [&name](const DrivenLimb& driven) { return driven.limb == name; });
-  };
-  return (has("right_thigh") && has("left_thigh")) ||
-         (has("right_upper_arm") && has("left_upper_arm"));
+bool HasAnArmOrALeg(const std::vector<DrivenLimb>& limbs) {
+  return std::any_of(limbs.begin(), limbs.end(), [](const DrivenLimb& driven) {
+    const std::string& name = driven.limb;
+    return name.find("_thigh") != std::string::npos || name.find("_upper_arm") != std::string::npos;
+  });
 }
 
 std::string JointsOf(const motion::Skeleton& skeleton) {
@@ -89,15 +87,7 @@ SkeletonMap LoadSkeletonMap(const std::filesystem::path& path) {
   return config::Load<SkeletonMap>(path);
 }
 
-std::vector<SkeletonMap> LoadSkeletonMaps(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  std::error_code fault;
-  for (std::filesystem::directory_iterator at(folder, fault), end; at != end; at.increment(fault)) {
-    if (at->path().extension() == ".yaml") files.push_back(at->path());
-  }
-  if (fault) throw config::ConfigError(folder.string() + ": " + fault.message());
-  if (files.empty()) throw config::ConfigError(folder.string() + ": holds no maps of skeletons");
-  std::sort(files.begin(), files.end());
+std::vector<SkeletonMap> LoadSkeletonMaps(const std::vector<std::filesystem::path>& files) {
   std::vector<SkeletonMap> maps;
   for (const std::filesystem::path& file : files) maps.push_back(LoadSkeletonMap(file));
   return maps;
@@ -125,14 +115,13 @@ const SkeletonMap& BestMap(const std::vector<SkeletonMap>& maps, const motion::S
   std::size_t most = 0;
   for (const SkeletonMap& map : maps) {
     const auto limbs = Bind(map, skeleton);
-    if (limbs.size() <= most || !HasBothSides(limbs)) continue;
+    if (limbs.size() <= most || !HasAnArmOrALeg(limbs)) continue;
     most = limbs.size();
     best = &map;
   }
   if (best != nullptr) return *best;
   throw config::ConfigError(
-      "no file of config/skeletons names both thighs or upper arms of this skeleton; its "
-      "joints: " +
+      "no file of config/skeletons names a thigh or an upper arm of this skeleton; its joints: " +
       JointsOf(skeleton) + "; describe them in a file of config/skeletons");
 }
 

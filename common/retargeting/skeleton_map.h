@@ -69,8 +69,8 @@ struct SkeletonMap {
 /// Reads a file of config/skeletons. Throws ConfigError naming file, line and key.
 SkeletonMap LoadSkeletonMap(const std::filesystem::path& path);
 
-/// All files *.yaml of a folder, by name. Throws ConfigError, also when there are none.
-std::vector<SkeletonMap> LoadSkeletonMaps(const std::filesystem::path& folder);
+/// Reads several. Throws as LoadSkeletonMap does.
+std::vector<SkeletonMap> LoadSkeletonMaps(const std::vector<std::filesystem::path>& files);
 
 /// One limb of a model and the joints of a skeleton, -1 = none.
 struct DrivenLimb {
@@ -86,7 +86,7 @@ struct DrivenLimb {
 std::vector<DrivenLimb> Bind(const SkeletonMap& map, const motion::Skeleton& skeleton);
 
 /// Of several maps the one that binds most limbs. Throws ConfigError listing the skeleton's joints
-/// when none binds both thighs or both upper arms.
+/// when none binds a thigh or an upper arm.
 const SkeletonMap& BestMap(const std::vector<SkeletonMap>& maps, const motion::Skeleton& skeleton);
 
 }  // namespace deixis::retargeting

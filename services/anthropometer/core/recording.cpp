@@ -49,8 +49,7 @@ std::string ActorOf(const fs::path& file) {
 }
 
 RecordingReader::RecordingReader(const std::string& model, motion::ClipOptions options)
-    : maps_(
-          retargeting::LoadSkeletonMaps(config::FindConfig("skeletons/deixis.yaml").parent_path())),
+    : maps_(retargeting::LoadSkeletonMaps(config::FindConfigs("skeletons"))),
       average_(AveragePerson(model)),
       options_(std::move(options)) {}
 

@@ -142,6 +142,22 @@ TEST(ShippedRanges, BoundRotationsThatAStretchedElbowCannotTellApartByTheirSum) 
   EXPECT_NEAR(RotationMargin_deg("right_elbow", 10.0, 100.0, 100.0), -10.0, 1e-6);
 }
 
+TEST(ShippedRanges, HaveNobodyBeyondThemWhoStands) {
+  for (const char* name : {"upper_body", "whole_body", "whole_body_detailed", "right_arm"}) {
+    const BodyModel body = ShippedBody(name);
+    const RangeOfMotion ranges(body, ShippedRanges(), ShippedRows(), Limits::kSource);
+    Kinematics kinematics(body);
+    kinematics.Update(Standing(body));
+    std::vector<JointState> states;
+    ranges.Check(kinematics, states);
+    for (const JointState& state : states) {
+      for (int i = 0; i < state.margins.count; ++i) {
+        EXPECT_GE(state.margins.each[static_cast<std::size_t>(i)].margin_rad, 0.0) << name;
+      }
+    }
+  }
+}
+
 TEST(ShippedRanges, AreCheckedWithoutTakingMemory) {
   const BodyModel body = ShippedBody("whole_body_detailed");
   const RangeOfMotion ranges(body, ShippedRanges(), ShippedRows());

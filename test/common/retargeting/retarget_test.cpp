@@ -63,6 +63,8 @@ TEST_P(WholeBodies, ComeBackFromTheClipsThatTheyAreWrittenTo) {
     found.Update(back.motion.poses[frame]);
     for (int limb = 0; limb < motion.model.limb_count(); ++limb) {
       EXPECT_LT((wanted.proximal_m(limb) - found.proximal_m(limb)).norm(), 1e-6);
+      EXPECT_LT((wanted.distal_m(limb) - found.distal_m(limb)).norm(), 1e-6)
+          << motion.model.limbs()[static_cast<std::size_t>(limb)].name;
       EXPECT_LT((wanted.limb(limb).linear() - found.limb(limb).linear()).norm(), 1e-6)
           << motion.model.limbs()[static_cast<std::size_t>(limb)].name;
     }
@@ -85,7 +87,8 @@ TEST(ToClip, TurnsRightWhereTwoAnglesTurnAboutOneAxis) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfTheShipped, WholeBodies,
-                         testing::Values("whole_body", "whole_body_detailed"));
+                         testing::Values("whole_body", "whole_body_detailed", "upper_body",
+                                         "right_arm"));
 
 /// A person in a T pose, y up, looking along z, centimetres made metres: bones of a usual BVH.
 class TPose {
@@ -281,6 +284,41 @@ TEST(Retarget, TakesAnyUpAxisAndPlace) {
   EXPECT_LT(
       (upright.made().motion.poses[0].angles_rad - turned.made().motion.poses[0].angles_rad).norm(),
       1e-6);
+}
+
+std::string RefusalOf(const motion::Clip& clip) {
+  try {
+    Retarget(clip, ShippedMap("biovision"), ShippedBody("whole_body"));
+  } catch (const config::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Retarget, RefusesPeopleOfAnotherUnitAndBodiesThatDoNotStand) {
+  TPose person;
+  person.AddFrame({});
+  EXPECT_EQ(RefusalOf(person.clip()), "");
+  for (const double scale : {0.01, 0.4, 2.54, 100.0}) {
+    motion::Clip scaled = person.clip();
+    for (motion::Joint& joint : scaled.skeleton.joints) {
+      joint.offset_m *= scale;
+      for (Vector3d& site : joint.end_sites_m) site *= scale;
+    }
+    EXPECT_THAT(RefusalOf(scaled), testing::HasSubstr("unit")) << scale;
+  }
+  motion::Clip exchanged = person.clip(), lifted = person.clip();
+  for (motion::Joint& joint : exchanged.skeleton.joints) {
+    if (joint.name.rfind("Left", 0) == 0) {
+      joint.name = "Right" + joint.name.substr(4);
+    } else if (joint.name.rfind("Right", 0) == 0) {
+      joint.name = "Left" + joint.name.substr(5);
+    }
+  }
+  EXPECT_THAT(RefusalOf(exchanged), testing::HasSubstr("left and right exchanged"));
+  lifted.skeleton.joints[static_cast<std::size_t>(person.Find("LeftFoot"))].offset_m =
+      Vector3d(0, 0.42, 0);
+  EXPECT_THAT(RefusalOf(lifted), testing::HasSubstr("left_shank does not hang"));
 }
 
 TEST(Retarget, RefusesWhatIsNoStandingPerson) {
