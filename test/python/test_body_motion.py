@@ -134,3 +134,10 @@ def test_a_recording_too_slow_for_speeds_is_named(tmp_path: Path, capsys: pytest
     write_bvh(tmp_path / "anna_creeps.bvh", bends(), rate_hz=5.0)
     assert main(["evaluate", "motion", "--data", str(tmp_path)]) == 1
     assert "anna_creeps.bvh: frames lie too far apart" in capsys.readouterr().err
+
+
+def test_limits_of_speed_say_whose_they_are(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write_bvh(tmp_path / "anna_bends.bvh", bends())
+    assert main(["evaluate", "motion", "--data", str(tmp_path), "--write-speeds", str(tmp_path / "speeds.yaml")]) == 1
+    assert "--actor" in capsys.readouterr().err
+    assert not (tmp_path / "speeds.yaml").exists()

@@ -46,7 +46,8 @@ Arguments Parse(int argc, char** argv) {
   app.add_option("--amc-rate", arguments.amc_rate_hz, "Frames per second of .amc files")
       ->check(CLI::Range(1.0, 1000.0));
   app.add_option("--write-speeds", arguments.speeds,
-                 "Write limits of speed from these recordings to this file, and stop");
+                 "Write limits of speed from these recordings to this file, and stop")
+      ->needs("--actor");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
