@@ -28,6 +28,18 @@ const JointSpeed* SpeedOf(const std::string& limb, const RangePlan& plan,
   return nullptr;
 }
 
+void RequireRanges(const RangePlan& plan, const SpeedLimits& limits) {
+  for (const JointSpeed& speed : limits.joints) {
+    const bool is_known =
+        std::any_of(plan.joints.begin(), plan.joints.end(),
+                    [&speed](const JointPlan& joint) { return joint.joint == speed.joint; });
+    if (!is_known) {
+      throw config::ConfigError("limits of speed: '" + speed.joint +
+                                "' is no joint of the ranges of motion");
+    }
+  }
+}
+
 }  // namespace
 
 void JointSpeed::Validate() const {
@@ -65,6 +77,7 @@ SpeedLimits LoadSpeedLimits(const std::filesystem::path& path) {
 
 body_model::BodyModel WithSpeedLimits(const body_model::BodyModel& model, const RangePlan& plan,
                                       const SpeedLimits& limits) {
+  RequireRanges(plan, limits);
   std::vector<body_model::Limb> limbs = model.limbs();
   for (body_model::Limb& limb : limbs) {
     const JointSpeed* speed = SpeedOf(WithoutSide(limb.name), plan, limits);

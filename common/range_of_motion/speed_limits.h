@@ -44,7 +44,7 @@ struct SpeedLimits {
 SpeedLimits LoadSpeedLimits(const std::filesystem::path& path);
 
 /// The model, each degree of freedom with the limits of the joint that its limb belongs to; others
-/// keep theirs.
+/// keep theirs. Throws ConfigError for a joint that the plan lacks.
 body_model::BodyModel WithSpeedLimits(const body_model::BodyModel& model, const RangePlan& plan,
                                       const SpeedLimits& limits);
 

@@ -119,3 +119,25 @@ def test_unknown_people_and_empty_folders_are_told(tmp_path: Path, capsys: pytes
     write_bvh(tmp_path / "anna_bends.bvh", bends(2))
     assert main(["evaluate", "motion", "--data", str(tmp_path), "--actor", "otto"]) == 1
     assert "'otto' is none of those recorded: anna" in capsys.readouterr().err
+
+
+def test_a_comma_in_a_recordings_name_moves_no_column(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write_bvh(tmp_path / 'anna_bends, "slowly".bvh', bends())
+    json_file = tmp_path / "motion.json"
+    assert main(["evaluate", "motion", "--data", str(tmp_path), "--json", str(json_file)]) == 0
+    recording, = json.loads(json_file.read_text(encoding="utf-8"))["recordings"]
+    assert (recording["recording"], recording["frames"]) == ('anna_bends, "slowly".bvh', 12)
+    assert "anna_bends" in capsys.readouterr().out
+
+
+def test_a_recording_too_slow_for_speeds_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write_bvh(tmp_path / "anna_creeps.bvh", bends(), rate_hz=5.0)
+    assert main(["evaluate", "motion", "--data", str(tmp_path)]) == 1
+    assert "anna_creeps.bvh: frames lie too far apart" in capsys.readouterr().err
+
+
+def test_limits_of_speed_say_whose_they_are(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write_bvh(tmp_path / "anna_bends.bvh", bends())
+    assert main(["evaluate", "motion", "--data", str(tmp_path), "--write-speeds", str(tmp_path / "speeds.yaml")]) == 1
+    assert "--actor" in capsys.readouterr().err
+    assert not (tmp_path / "speeds.yaml").exists()

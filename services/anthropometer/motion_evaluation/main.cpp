@@ -46,7 +46,8 @@ Arguments Parse(int argc, char** argv) {
   app.add_option("--amc-rate", arguments.amc_rate_hz, "Frames per second of .amc files")
       ->check(CLI::Range(1.0, 1000.0));
   app.add_option("--write-speeds", arguments.speeds,
-                 "Write limits of speed from these recordings to this file, and stop");
+                 "Write limits of speed from these recordings to this file, and stop")
+      ->needs("--actor");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -76,6 +77,13 @@ std::string Joined(const std::vector<std::string>& names) {
   return text;
 }
 
+/// As RFC 4180 has it: files may have commas and quotes in their names.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
+  return quoted + "\"";
+}
+
 void Print(const MotionScore& score) {
   std::printf("joint,joint_frames,rejected\n");
   for (const auto& [name, joint] : score.joints) {
@@ -89,9 +97,9 @@ void Print(const MotionScore& score) {
   }
   std::printf("\nrecording,frames,joint_frames,rejected,mean_error_mm,largest_error_mm,faulty\n");
   for (const ClipScore& clip : score.clips) {
-    std::printf("%s,%ld,%ld,%ld,%.2f,%.2f,%s\n", clip.name.c_str(), clip.frames, clip.joint_frames,
-                clip.rejected, 1000.0 * clip.mean_error_m, 1000.0 * clip.largest_error_m,
-                Joined(clip.faulty).c_str());
+    std::printf("%s,%ld,%ld,%ld,%.2f,%.2f,%s\n", Quoted(clip.name).c_str(), clip.frames,
+                clip.joint_frames, clip.rejected, 1000.0 * clip.mean_error_m,
+                1000.0 * clip.largest_error_m, Joined(clip.faulty).c_str());
   }
 }
 
@@ -134,7 +142,14 @@ MotionScore ScoreOf(const std::vector<fs::path>& files, const RecordingReader& r
 SpeedSamples SpeedsOf(const std::vector<fs::path>& files, const RecordingReader& reader,
                       const Judges& judges) {
   SpeedSamples speeds;
-  for (const fs::path& file : files) AddSpeeds(reader.Read(file).motion, judges, speeds);
+  for (const fs::path& file : files) {
+    const auto recording = reader.Read(file);
+    try {
+      AddSpeeds(recording.motion, judges, speeds);
+    } catch (const std::invalid_argument& error) {
+      throw config::ConfigError(file.string() + ": " + error.what());
+    }
+  }
   return speeds;
 }
 

@@ -28,6 +28,18 @@ TEST(SpeedLimits, AreGivenToTheLimbsOfTheirJoint) {
   }
 }
 
+TEST(SpeedLimits, AreRefusedForAJointThatHasNoRange) {
+  const test::TemporaryFolder folder;
+  SpeedLimits limits = LoadSpeedLimits(folder.Write("speeds.yaml", kGood));
+  limits.joints.front().joint = "kneee";
+  try {
+    WithSpeedLimits(ShippedBody("whole_body"), ShippedRanges(), limits);
+    FAIL();
+  } catch (const config::ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("kneee"));
+  }
+}
+
 TEST(SpeedLimits, AreShippedForEveryJointWithTheirOriginAndCertainty) {
   const SpeedLimits limits =
       LoadSpeedLimits(DEIXIS_SOURCE_DIR "/config/kinematics/joint_speeds.yaml");

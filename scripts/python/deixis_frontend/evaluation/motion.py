@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--amc-rate", type=above_zero, default=120.0, metavar="HZ",
                         help="frames per second of .amc files (default: 120)")
     parser.add_argument("--write-speeds", type=Path, metavar="FILE",
-                        help="write limits of speed from these recordings, and stop")
+                        help="write limits of speed from the recordings of --actor, and stop")
     report_options.add_json(parser)
 
 
