@@ -55,12 +55,38 @@ def test_what_is_beyond_the_limits_is_told(tmp_path: Path, capsys: pytest.Captur
 
 def test_the_unit_and_the_model_can_be_chosen(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write_bvh(tmp_path / "in.bvh", bends(3))
-    assert main(["body", "--motion", str(tmp_path / "in.bvh"), "--unit", "0.02", "--model", "whole_body",
+    assert main(["body", "--motion", str(tmp_path / "in.bvh"), "--unit", "0.012", "--model", "whole_body",
                  "--json"]) == 0
     report = json.loads(capsys.readouterr().out)
     lengths = {limb["limb"]: limb["length_m"] for limb in report["limbs"]}
-    assert lengths["left_shank"] == pytest.approx(0.84)
+    assert lengths["left_shank"] == pytest.approx(0.504)
     assert "left_hand" not in lengths
+
+
+def test_a_map_of_ones_own_is_taken_beside_the_shipped_ones(tmp_path: Path, capsys: pytest.CaptureFixture[str],
+                                                            monkeypatch: pytest.MonkeyPatch) -> None:
+    write_bvh(tmp_path / "in.bvh", bends(3))
+    renamed = (tmp_path / "in.bvh").read_text(encoding="ascii")
+    for name, french in (("Hips", "Bassin"), ("LeftUpLeg", "CuisseG"), ("RightUpLeg", "CuisseD"),
+                         ("LeftLeg", "JambeG"), ("RightLeg", "JambeD"), ("Head", "Tete"), ("LeftArm", "BrasG"),
+                         ("RightArm", "BrasD")):
+        renamed = renamed.replace(f" {name}\n", f" {french}\n")
+    (tmp_path / "fr.bvh").write_text(renamed, encoding="ascii")
+    own = tmp_path / "own"
+    (own / "skeletons").mkdir(parents=True)
+    (own / "skeletons" / "french.yaml").write_text(
+        'name: french\nright: D\nleft: G\nlimbs:\n'
+        '  - {limb: pelvis, joint: Bassin, stance: neutral}\n'
+        '  - {limb: head, joint: Tete, stance: neutral}\n'
+        '  - {limb: upper_arm, side: both, joint: "Bras{side}"}\n'
+        '  - {limb: thigh, side: both, joint: "Cuisse{side}", ends_at: "Jambe{side}"}\n', encoding="ascii")
+    assert main(["body", "--motion", str(tmp_path / "fr.bvh"), "--json"]) == 1
+    assert "config/skeletons" in capsys.readouterr().err
+    monkeypatch.setenv("DEIXIS_CONFIG_DIR", str(own))
+    assert main(["body", "--motion", str(tmp_path / "fr.bvh"), "--json"]) == 0
+    lengths = {limb["limb"]: limb["length_m"] for limb in json.loads(capsys.readouterr().out)["limbs"]}
+    assert lengths["right_thigh"] == pytest.approx(0.42)
+    assert main(["body", "--motion", str(tmp_path / "in.bvh"), "--json"]) == 0
 
 
 @pytest.mark.parametrize(("text", "hint"), [

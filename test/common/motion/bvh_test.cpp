@@ -43,6 +43,31 @@ void ExpectNear(const Vector3d& actual, const Vector3d& expected) {
   EXPECT_LT((actual - expected).norm(), 1e-9) << actual.transpose();
 }
 
+/// A joint with positions, 10 cm above the root by its OFFSET; a frame for each height.
+std::string Lift(const std::vector<double>& heights) {
+  std::string text =
+      "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 90 0\n  CHANNELS 3 Xposition Yposition Zposition\n"
+      "  JOINT Chest\n  {\n    OFFSET 0 10 0\n    CHANNELS 3 Xposition Yposition Zposition\n"
+      "    End Site\n    {\n      OFFSET 0 5 0\n    }\n  }\n}\nMOTION\nFrames: " +
+      std::to_string(heights.size()) + "\nFrame Time: 0.1\n";
+  for (const double height : heights) text += "0 90 0 0 " + std::to_string(height) + " 0\n";
+  return text;
+}
+
+double HeightAboveRoot(const Clip& clip, Eigen::Index frame) {
+  const auto poses = ForwardKinematics(clip.skeleton, clip.frames.row(frame).transpose());
+  return poses[1].translation().y() - poses[0].translation().y();
+}
+
+TEST_F(BvhTest, TakesPositionsAsPlacesOrAsDifferencesByWhatTheyAreNearer) {
+  const Clip places = Read(Lift({10.0, 10.5})), differences = Read(Lift({0.0, 0.5}));
+  EXPECT_NEAR(HeightAboveRoot(places, 0), 0.10, 1e-12);
+  EXPECT_NEAR(HeightAboveRoot(places, 1), 0.105, 1e-12);
+  EXPECT_NEAR(HeightAboveRoot(differences, 0), 0.10, 1e-12);
+  EXPECT_NEAR(HeightAboveRoot(differences, 1), 0.105, 1e-12);
+  EXPECT_NEAR(places.frames(0, 1), 0.90, 1e-12);  // A root's place stays as it is.
+}
+
 TEST_F(BvhTest, GivesThePositionsThatNumpyComputes) {
   const Clip clip = Read(kBvh);
   EXPECT_DOUBLE_EQ(clip.frame_rate_hz, 40.0);
