@@ -94,6 +94,7 @@ void Run(const Arguments& arguments) {
   if (!arguments.ply.empty()) WriteWhole(arguments.ply, PlyOf(model, pose));
   if (!arguments.png.empty()) WritePicture(person, model, pose, arguments);
   std::cout << told.dump() << "\n";
+  program::FinishOutput(std::cout);
 }
 
 }  // namespace

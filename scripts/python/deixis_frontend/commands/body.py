@@ -46,6 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--body-id", default="default", metavar="ID",
                         help="ends all names of the URDF, as in REP 155 (default: %(default)s)")
     parser.add_argument("--ply", type=Path, metavar="FILE", help="write the surface as PLY, metres")
+    parser.add_argument("--force", action="store_true", help="replace files that are there")
     body_motion.add_arguments(parser)
 
 
@@ -57,9 +58,9 @@ def run(arguments: argparse.Namespace) -> int:
         return body_motion.run(arguments)
     if arguments.sex is None:
         raise UserError("--sex female or --sex male is needed, or a motion file: --motion FILE")
-    for option in _FILES:
-        if getattr(arguments, option) is not None:
-            output_files.require_file(getattr(arguments, option), f"--{option}")
+    files = {f"--{option}": getattr(arguments, option) for option in _FILES
+             if getattr(arguments, option) is not None}
+    output_files.require_outputs(files, {}, may_replace=arguments.force)
     report = json.loads(run_program(layout.find(), "deixis-body", *_options(arguments)))
     if arguments.json:
         print(json.dumps(report, indent=2, ensure_ascii=False))

@@ -40,7 +40,10 @@ def check(arguments: argparse.Namespace) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """0; raises UserError when the motion cannot be read or a file cannot be written."""
     if arguments.bvh is not None:
-        output_files.require_file(arguments.bvh, "--bvh")
+        inputs = {"--motion": arguments.motion, "--asf": arguments.asf}
+        output_files.require_outputs({"--bvh": arguments.bvh},
+                                     {name: path for name, path in inputs.items() if path is not None},
+                                     may_replace=arguments.force)
     options = [f"--motion={arguments.motion}", f"--model={arguments.model}"]
     for option in _ONLY_WITH_MOTION:
         value = getattr(arguments, option)
