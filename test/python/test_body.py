@@ -277,3 +277,16 @@ def test_names_that_the_output_cannot_encode_are_escaped() -> None:
                            capture_output=True, text=True, env=environment, check=False)
     assert ended.returncode == 0, ended.stderr
     assert "K\\xf6rperh\\xf6he" in ended.stdout
+
+
+@pytest.mark.parametrize("command", [
+    "body --sex male --OPTION joint measure model body-id png urdf ply motion asf bvh",
+    "evaluate motion --data . --OPTION actor model allowances-of write-speeds data",
+])
+def test_empty_texts_are_wrong_usage(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    words, options = command.split(" --OPTION ")
+    for option in options.split():
+        with pytest.raises(SystemExit) as end:
+            main([*words.split(), f"--{option}", ""])
+        assert end.value.code == 2
+        assert f"argument --{option}: is empty" in capsys.readouterr().err
