@@ -1,11 +1,9 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
+#include "common/files/whole_file.h"
 #include "common/motion/bvh.h"
 #include "common/motion/frame_table.h"
 
@@ -195,22 +193,6 @@ class BvhText {
   std::string text_;
 };
 
-/// Through a neighbour of another name, so that nobody meets half a file.
-void WriteWhole(const std::string& text, const fs::path& path) {
-  const fs::path unfinished = path.string() + "." + std::to_string(getpid()) + ".part";
-  std::ofstream out(unfinished, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) fs::rename(unfinished, path, error);
-  if (out && !error) return;
-  std::error_code ignored;
-  fs::remove(unfinished, ignored);
-  throw MotionFileError(path.string() +
-                        ": cannot be written: free some space, or name another file" +
-                        (error ? " (" + error.message() + ")" : ""));
-}
-
 }  // namespace
 
 // Where Z and Y turn about one axis any Z serves: X and Y are taken from what it leaves, so that
@@ -247,7 +229,12 @@ void WriteBvh(const Clip& clip, const fs::path& path, const BvhOptions& options)
   RequireUnit(options.metres_per_unit, path);
   RequireRate(clip.frame_rate_hz, path);
   RequireBvh(clip);
-  WriteWhole(BvhText(clip, path, options.metres_per_unit).Text(), path);
+  const std::string text = BvhText(clip, path, options.metres_per_unit).Text();
+  try {
+    files::WriteWhole(path, text);
+  } catch (const files::FileError& error) {
+    throw MotionFileError(error.what());
+  }
 }
 
 }  // namespace deixis::motion

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <ostream>
+#include <stdexcept>
 
 namespace deixis::program {
 
@@ -14,6 +16,10 @@ std::string AssignmentFault(const std::string& text) {
 
 std::string EmptyFault(const std::string& text) {
   return text.empty() ? "is empty; give a name or leave the option out" : "";
+}
+
+void FinishOutput(std::ostream& out) {
+  if (!out.flush()) throw std::runtime_error("cannot write the output: is there room?");
 }
 
 ParsedCommandLine ParseCommandLine(const Description& description, int argc, char** argv) {

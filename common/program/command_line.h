@@ -1,4 +1,5 @@
 #pragma once
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,10 @@ std::string AssignmentFault(const std::string& text);
 
 /// What is wrong with a text that must name something; empty when nothing is.
 std::string EmptyFault(const std::string& text);
+
+/// Ends what a program prints: throws std::runtime_error unless all of it is written, as on a full
+/// disk.
+void FinishOutput(std::ostream& out);
 
 /// What the command line of a service says.
 struct CommandLine {

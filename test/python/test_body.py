@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import random
 import struct
+import subprocess
+import sys
 import xml.etree.ElementTree as xml
 from collections import Counter, defaultdict
 from collections.abc import Iterator
@@ -132,8 +135,8 @@ def test_urdf_brings_every_joint_where_the_model_has_it(tmp_path: Path,
 def test_urdf_loads_in_a_parser_of_others(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     parser = pytest.importorskip("urdf_parser_py.urdf")
     for model in ("whole_body_detailed", "whole_body", "upper_body", "right_arm"):
-        report = report_of(capsys, "--urdf", str(tmp_path / "body.urdf"), "--model", model)
-        robot = parser.URDF.from_xml_file(str(tmp_path / "body.urdf"))
+        report = report_of(capsys, "--urdf", str(tmp_path / f"{model}.urdf"), "--model", model)
+        robot = parser.URDF.from_xml_file(str(tmp_path / f"{model}.urdf"))
         assert robot.get_root() == "body_default"
         assert len(robot.links) == len(robot.joints) + 1
         children = [joint.child for joint in robot.joints]
@@ -249,3 +252,41 @@ def faces_of(data: bytes) -> Iterator[tuple[int, int, int]]:
     for corners, a, b, c in struct.iter_unpack("<B3i", data):
         assert corners == 3
         yield a, b, c
+
+
+def test_files_that_are_there_are_replaced_by_force_only(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    urdf = tmp_path / "body.urdf"
+    urdf.write_text("old")
+    assert main([*PERSON, "--urdf", str(urdf)]) == 1
+    assert "is there already: name another --urdf, or give --force" in capsys.readouterr().err
+    assert urdf.read_text() == "old"
+    assert main([*PERSON, "--urdf", str(urdf), "--force"]) == 0
+    assert urdf.read_text() != "old"
+
+
+def test_two_outputs_are_never_one_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "link").symlink_to("body")
+    assert main([*PERSON, "--urdf", str(tmp_path / "body"), "--ply", str(tmp_path / "link"), "--force"]) == 1
+    assert "--ply and --urdf are the same file" in capsys.readouterr().err
+    assert not (tmp_path / "body").exists()
+
+
+def test_names_that_the_output_cannot_encode_are_escaped() -> None:
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONPATH": os.pathsep.join(sys.path)}
+    ended = subprocess.run([sys.executable, "-m", "deixis_frontend", *PERSON, "--language", "de"],
+                           capture_output=True, text=True, env=environment, check=False)
+    assert ended.returncode == 0, ended.stderr
+    assert "K\\xf6rperh\\xf6he" in ended.stdout
+
+
+@pytest.mark.parametrize("command", [
+    "body --sex male --OPTION joint measure model body-id png urdf ply motion asf bvh",
+    "evaluate motion --data . --OPTION actor model allowances-of write-speeds data",
+])
+def test_empty_texts_are_wrong_usage(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    words, options = command.split(" --OPTION ")
+    for option in options.split():
+        with pytest.raises(SystemExit) as end:
+            main([*words.split(), f"--{option}", ""])
+        assert end.value.code == 2
+        assert f"argument --{option}: is empty" in capsys.readouterr().err

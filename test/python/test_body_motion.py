@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+import os
 import re
+import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 from recorded_person import Turns, positions_m, write_bvh
 
+from deixis_frontend import layout
 from deixis_frontend.cli import main
 
 # Joints of the person and limbs of the model that begin there.
@@ -167,3 +170,38 @@ def test_limits_of_speed_say_whose_they_are(tmp_path: Path, capsys: pytest.Captu
     assert main(["evaluate", "motion", "--data", str(tmp_path), "--write-speeds", str(tmp_path / "speeds.yaml")]) == 1
     assert "--actor" in capsys.readouterr().err
     assert not (tmp_path / "speeds.yaml").exists()
+
+
+def test_a_motion_is_never_written_over_itself_nor_over_a_file_unforced(
+        tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    motion, other = tmp_path / "in.bvh", tmp_path / "other.bvh"
+    write_bvh(motion, bends(3))
+    before = motion.read_bytes()
+    (tmp_path / "hard.bvh").hardlink_to(motion)
+    for output in (motion, tmp_path / "hard.bvh"):
+        assert main(["body", "--motion", str(motion), "--bvh", str(output), "--force"]) == 1
+        assert "--bvh and --motion are the same file" in capsys.readouterr().err
+    assert motion.read_bytes() == before
+    other.write_text("old")
+    assert main(["body", "--motion", str(motion), "--bvh", str(other)]) == 1
+    assert "give --force" in capsys.readouterr().err and other.read_text() == "old"
+    assert main(["body", "--motion", str(motion), "--bvh", str(other), "--force"]) == 0
+
+
+def test_a_pipe_as_bvh_stays_a_pipe(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write_bvh(tmp_path / "in.bvh", bends(3))
+    os.mkfifo(tmp_path / "pipe")
+    assert main(["body", "--motion", str(tmp_path / "in.bvh"), "--bvh", str(tmp_path / "pipe"), "--force"]) == 1
+    assert "is no regular file" in capsys.readouterr().err
+    assert (tmp_path / "pipe").is_fifo()
+
+
+@pytest.mark.skipif(not Path("/dev/full").is_char_device(), reason="no /dev/full here")
+def test_a_report_that_finds_no_room_is_an_error(tmp_path: Path) -> None:
+    write_bvh(tmp_path / "in.bvh", bends(3))
+    for program, options in (("deixis-body", ["--sex=male"]), ("deixis-retarget", [f"--motion={tmp_path / 'in.bvh'}"])):
+        with Path("/dev/full").open("w") as full:
+            ended = subprocess.run([str(layout.find().program(program)), *options], stdout=full,
+                                   stderr=subprocess.PIPE, text=True, env=layout.find().environment(), check=False)
+        assert ended.returncode == 1
+        assert "cannot write the output" in ended.stderr

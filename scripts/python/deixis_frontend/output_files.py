@@ -16,6 +16,35 @@ def require_file(path: Path, option: str) -> None:
     _require_writable(path.parent, path, option)
 
 
+def require_outputs(outputs: dict[str, Path], inputs: dict[str, Path], *, may_replace: bool) -> None:
+    """Raises UserError unless each of `outputs`, by its option, can be written without harm.
+
+    None may be an input or another output, no regular file, or, unless `may_replace`, there already.
+    """
+    taken = {path.resolve(): option for option, path in inputs.items()}
+    for option, path in outputs.items():
+        require_file(path, option)
+        final = path.resolve()
+        other = next((name for file, name in taken.items() if _are_same(file, final)), None)
+        if other is not None:
+            raise UserError(f"{option} and {other} are the same file {path}: name another {option}")
+        _require_replaceable(path, option, may_replace=may_replace)
+        taken[final] = option
+
+
+def _are_same(one: Path, other: Path) -> bool:
+    """Also of two hard links."""
+    return one == other or (one.exists() and other.exists() and one.samefile(other))
+
+
+def _require_replaceable(target: Path, option: str, *, may_replace: bool) -> None:
+    is_there = _exists(target, option)
+    if is_there and not target.resolve().is_file():
+        raise UserError(f"{option} {target} is no regular file: name another one")
+    if is_there and not may_replace:
+        raise UserError(f"{target} is there already: name another {option}, or give --force")
+
+
 def require_folder(path: Path, option: str) -> None:
     """Raises UserError when `path` cannot be a folder to write to; makes it."""
     if _exists(path, option) and not path.is_dir():
@@ -33,11 +62,7 @@ class UnfinishedFile:
         """Makes the file; raises UserError when that fails or `target` must not be replaced."""
         self.target = target
         final = target.resolve()
-        is_there = _exists(target, option)
-        if is_there and not final.is_file():
-            raise UserError(f"{option} {target} is no regular file: name another one")
-        if is_there and not may_replace:
-            raise UserError(f"{target} is there already: name another {option}, or give --force")
+        _require_replaceable(target, option, may_replace=may_replace)
         self._final = final
         self._may_replace = may_replace
         self._is_wanted = False  # complete, but without a name

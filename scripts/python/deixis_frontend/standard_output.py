@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Callable
 from contextlib import redirect_stdout
+from io import TextIOWrapper
 from typing import Any, TextIO, cast
 
 READER_HAS_GONE = 141  # exit code, as of a shell
@@ -59,6 +60,9 @@ class _Output:
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
+        # German names, say, where only ASCII goes. Another way than "strict" was chosen by someone.
+        if isinstance(stream, TextIOWrapper) and stream.errors == "strict":
+            stream.reconfigure(errors="backslashreplace")
         self.error: OutputError | None = None  # the last one
 
     def write(self, text: str) -> int:

@@ -11,6 +11,7 @@
 #include "common/anthropometry/person_estimate.h"
 #include "common/body_model/body_plan.h"
 #include "common/config/config.h"
+#include "common/files/whole_file.h"
 #include "common/program/command_line.h"
 #include "common/range_of_motion/range_plan.h"
 #include "common/text/number_text.h"
@@ -20,12 +21,12 @@
 #include "services/anthropometer/core/model_file.h"
 #include "services/anthropometer/core/range_picture.h"
 #include "services/anthropometer/core/urdf.h"
-#include "services/anthropometer/core/whole_file.h"
 
 namespace deixis::anthropometer {
 namespace {
 
 using config::FindConfig;
+using files::WriteWhole;
 
 constexpr int kPicture_px = 1200;  // Height; twice as wide.
 
@@ -93,6 +94,7 @@ void Run(const Arguments& arguments) {
   if (!arguments.ply.empty()) WriteWhole(arguments.ply, PlyOf(model, pose));
   if (!arguments.png.empty()) WritePicture(person, model, pose, arguments);
   std::cout << told.dump() << "\n";
+  program::FinishOutput(std::cout);
 }
 
 }  // namespace

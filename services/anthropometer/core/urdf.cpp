@@ -158,11 +158,28 @@ std::string JointText(const UrdfJoint& joint) {
   return text + "  </joint>\n";
 }
 
-void CheckNames(const std::vector<UrdfJoint>& joints) {
-  std::set<std::string> seen;
+/// Throws ConfigError for a name with characters of XML's own, or that XML cannot hold.
+void CheckName(const std::string& name) {
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f || std::string("<>&\"").find(c) != std::string::npos) {
+      throw config::ConfigError("the name '" + name +
+                                "' cannot stand in a URDF: leave out <, >, &, \" and controls");
+    }
+  }
+}
+
+void CheckNames(const BodyModel& model, const std::vector<UrdfJoint>& joints) {
+  CheckName(model.name());
+  std::set<std::string> links = {joints[0].parent}, names;  // The link that all hang on.
   for (const UrdfJoint& joint : joints) {
-    if (!seen.insert(joint.child).second) {
-      throw config::ConfigError("two limbs would be the link " + joint.child + " of a URDF");
+    CheckName(joint.child);
+    if (!links.insert(joint.child).second) {
+      throw config::ConfigError("two limbs, or one and the root, would be the link " + joint.child +
+                                " of a URDF");
+    }
+    if (!names.insert(joint.name).second) {
+      throw config::ConfigError("two limbs would have the joint " + joint.name + " of a URDF");
     }
   }
 }
@@ -216,7 +233,7 @@ std::vector<JointValue> JointValues(const BodyModel& model, const std::vector<Ur
 
 std::string UrdfOf(const BodyModel& model, const std::string& body_id) {
   const auto joints = UrdfJoints(model, body_id);
-  CheckNames(joints);
+  CheckNames(model, joints);
   std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + model.name() + "\">\n";
   text += "  <link name=\"body_" + body_id + "\"/>\n";
   for (std::size_t i = 0; i < joints.size(); ++i) {

@@ -114,6 +114,7 @@ void Run(const Arguments& arguments) {
   const Json told = Told(recording);
   if (!arguments.bvh.empty()) motion::WriteBvh(ToClip(recording.motion), arguments.bvh);
   std::cout << told.dump() << "\n";
+  program::FinishOutput(std::cout);
 }
 
 }  // namespace

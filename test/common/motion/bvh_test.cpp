@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <csignal>
@@ -261,6 +262,13 @@ TEST_F(BvhTest, LeavesTheOldFileWhenThereIsNoRoomForTheNew) {
 TEST_F(BvhTest, IsNotWrittenIntoAFolderThatIsNotThere) {
   EXPECT_THROW(WriteBvh(Read(kBvh), folder_.path() / "none" / "b.bvh"), MotionFileError);
   EXPECT_THROW(WriteBvh(Read(kBvh), folder_.path()), MotionFileError);
+}
+
+TEST_F(BvhTest, LeavesAPipeInItsPlace) {
+  const std::filesystem::path pipe = folder_.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(WriteBvh(Read(kBvh), pipe), MotionFileError);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 }  // namespace

@@ -5,12 +5,10 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 
 #include "common/body_model/joint_angles.h"
 #include "common/config/config.h"
-#include "services/anthropometer/core/whole_file.h"
 #include "test/services/anthropometer/person.h"
 #include "test/support/temporary_folder.h"
 
@@ -93,17 +91,6 @@ TEST(BodyReport, TellsLimitsOfSpeedWithTheirCertainty) {
   EXPECT_EQ(told["joints"][0]["speed_deg_per_s"], 300.0);
 }
 
-TEST(WholeFile, FollowsLinks) {
-  const test::TemporaryFolder folder;
-  const fs::path file = folder.Write("file", "first"), link = folder.path() / "link";
-  fs::create_symlink("file", link);
-  WriteWhole(link, "second");
-  EXPECT_TRUE(fs::is_symlink(link));
-  std::string text;
-  std::getline(std::ifstream(file), text);
-  EXPECT_EQ(text, "second");
-}
-
 TEST(BodyReport, TellsHowFarJointsAreFromTheirLimitsInThePose) {
   const body_model::BodyModel model = TallMan("whole_body_detailed");
   const auto limits = anatomy::JointLimits::Load(kKinematics + "joint_limits.yaml");
@@ -118,22 +105,6 @@ TEST(BodyReport, TellsHowFarJointsAreFromTheirLimitsInThePose) {
   EXPECT_THAT(told, HasSubstr(R"("joint":"left_elbow","joint_name":"Ellenbogengelenk")"));
   EXPECT_THAT(told, HasSubstr(R"("motion":"flexion","motion_name":"Beugen","left_deg":30.0})"));
   EXPECT_THAT(told, Not(HasSubstr("hip")));
-}
-
-TEST(WholeFile, LeavesTheOldOneWhenItCannotBeWritten) {
-  const test::TemporaryFolder temporary;
-  const fs::path& folder = temporary.path();
-  fs::create_directories(folder / "taken");
-  WriteWhole(folder / "file", "first");
-  WriteWhole(folder / "file", "second");
-  std::string text;
-  std::getline(std::ifstream(folder / "file"), text);
-  EXPECT_EQ(text, "second");
-  EXPECT_THAT(FaultOf([&] { WriteWhole(folder / "taken", "x"); }), HasSubstr("it is a folder"));
-  EXPECT_THAT(FaultOf([&] { WriteWhole(folder / "none" / "file", "x"); }),
-              HasSubstr("none/file: cannot be written"));
-  EXPECT_THAT(FaultOf([&] { WriteWhole("/dev/null", "x"); }), HasSubstr("no regular file"));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);  // No part is left.
 }
 
 }  // namespace

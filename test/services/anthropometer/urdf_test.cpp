@@ -153,5 +153,17 @@ TEST(Urdf, RefusesTwoLimbsOfOneName) {
   EXPECT_THROW(UrdfOf(BodyModel("both", {base, chest}), "x"), config::ConfigError);
 }
 
+TEST(Urdf, RefusesNamesThatAreTheRootsOrBreakXml) {
+  body_model::Limb limb;
+  limb.shape = {0.1, 0.1, 0.1, 0.1, 0.3};
+  for (const char* name : {"body", "b<", "b>", "b&", "b\"", "b\n"}) {
+    limb.name = name;
+    EXPECT_THROW(UrdfOf(BodyModel("one", {limb}), "x"), config::ConfigError) << name;
+  }
+  limb.name = "base";
+  EXPECT_THROW(UrdfOf(BodyModel("o&e", {limb}), "x"), config::ConfigError);
+  EXPECT_NO_THROW(UrdfOf(BodyModel("one", {limb}), "x"));
+}
+
 }  // namespace
 }  // namespace deixis::anthropometer

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-from pathlib import Path
 from typing import Any
 
 from deixis_frontend import layout, output_files
@@ -12,6 +11,7 @@ from deixis_frontend.commands import body_motion
 from deixis_frontend.errors import UserError
 from deixis_frontend.number_options import above_zero
 from deixis_frontend.programs import run_program
+from deixis_frontend.text_options import file_path, name
 from deixis_frontend.text_table import lines
 
 _STATURES_M = (1.2, 2.3)
@@ -28,11 +28,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     size.add_argument("--stature", type=_stature, metavar="METRES", help="body height")
     size.add_argument("--percentile", type=_percentile, metavar="P",
                       help="instead: P %% of that sex are no taller (default: 50)")
-    parser.add_argument("--model", metavar="NAME", default="whole_body_detailed",
+    parser.add_argument("--model", type=name, metavar="NAME", default="whole_body_detailed",
                         help="file of config/body_models (default: %(default)s)")
-    parser.add_argument("--joint", metavar="NAME",
+    parser.add_argument("--joint", type=name, metavar="NAME",
                         help="tell the limits of this joint only; in any language")
-    parser.add_argument("--measure", metavar="NAME", help="tell this measure only; in any language")
+    parser.add_argument("--measure", type=name, metavar="NAME", help="tell this measure only; in any language")
     parser.add_argument("--language", choices=("en", "de", "la"), default="en",
                         help="of the names (default: %(default)s)")
     parser.add_argument("--json", action="store_true", help="print JSON, with more in it")
@@ -40,12 +40,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="how the body is drawn and meshed (default: %(default)s)")
     parser.add_argument("--angle", action="append", default=[], metavar="LIMB.ANGLE=DEGREES",
                         help="then one angle of it, as right_lower_arm.flexion=90; again for more")
-    parser.add_argument("--png", type=Path, metavar="FILE",
+    parser.add_argument("--png", type=file_path, metavar="FILE",
                         help="draw it, front and side, with the ranges of its joints")
-    parser.add_argument("--urdf", type=Path, metavar="FILE", help="write the model as URDF")
-    parser.add_argument("--body-id", default="default", metavar="ID",
+    parser.add_argument("--urdf", type=file_path, metavar="FILE", help="write the model as URDF")
+    parser.add_argument("--body-id", type=name, default="default", metavar="ID",
                         help="ends all names of the URDF, as in REP 155 (default: %(default)s)")
-    parser.add_argument("--ply", type=Path, metavar="FILE", help="write the surface as PLY, metres")
+    parser.add_argument("--ply", type=file_path, metavar="FILE", help="write the surface as PLY, metres")
+    parser.add_argument("--force", action="store_true", help="replace files that are there")
     body_motion.add_arguments(parser)
 
 
@@ -57,9 +58,9 @@ def run(arguments: argparse.Namespace) -> int:
         return body_motion.run(arguments)
     if arguments.sex is None:
         raise UserError("--sex female or --sex male is needed, or a motion file: --motion FILE")
-    for option in _FILES:
-        if getattr(arguments, option) is not None:
-            output_files.require_file(getattr(arguments, option), f"--{option}")
+    files = {f"--{option}": getattr(arguments, option) for option in _FILES
+             if getattr(arguments, option) is not None}
+    output_files.require_outputs(files, {}, may_replace=arguments.force)
     report = json.loads(run_program(layout.find(), "deixis-body", *_options(arguments)))
     if arguments.json:
         print(json.dumps(report, indent=2, ensure_ascii=False))
@@ -82,10 +83,10 @@ def _refuse_beside_motion(arguments: argparse.Namespace) -> None:
 def _options(arguments: argparse.Namespace) -> list[str]:
     """The program's command line."""
     options = []
-    for name in (*_PASSED_ON, *_FILES):
-        value = getattr(arguments, name)
+    for option in (*_PASSED_ON, *_FILES):
+        value = getattr(arguments, option)
         if value is not None:
-            options.append(f"--{name.replace('_', '-')}={value}")
+            options.append(f"--{option.replace('_', '-')}={value}")
     return options + [f"--angle={text}" for text in arguments.angle]
 
 

@@ -11,6 +11,7 @@ from deixis_frontend import layout, output_files
 from deixis_frontend.errors import UserError
 from deixis_frontend.number_options import above_zero
 from deixis_frontend.programs import run_program
+from deixis_frontend.text_options import file_path
 from deixis_frontend.text_table import lines
 
 _ONLY_WITH_MOTION = ("asf", "amc_rate", "unit", "bvh")
@@ -19,15 +20,15 @@ _ONLY_WITH_MOTION = ("asf", "amc_rate", "unit", "bvh")
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which motion, how it is to be read, and where its poses go."""
     group = parser.add_argument_group("recorded motion")
-    group.add_argument("--motion", type=Path, metavar="FILE",
+    group.add_argument("--motion", type=file_path, metavar="FILE",
                        help="read a .bvh file, or .amc with its .asf, into poses of the model, scaled to that person")
-    group.add_argument("--asf", type=Path, metavar="FILE",
+    group.add_argument("--asf", type=file_path, metavar="FILE",
                        help="skeleton of an .amc file (default: the one beside it whose name its own begins with)")
     group.add_argument("--amc-rate", type=above_zero, metavar="HZ",
                        help="frames per second of an .amc file (default: 120)")
     group.add_argument("--unit", type=above_zero, metavar="METRES",
                        help="metres per unit of a .bvh file (default: 0.01)")
-    group.add_argument("--bvh", type=Path, metavar="FILE", help="write the poses as BVH, centimetres")
+    group.add_argument("--bvh", type=file_path, metavar="FILE", help="write the poses as BVH, centimetres")
 
 
 def check(arguments: argparse.Namespace) -> None:
@@ -40,7 +41,10 @@ def check(arguments: argparse.Namespace) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """0; raises UserError when the motion cannot be read or a file cannot be written."""
     if arguments.bvh is not None:
-        output_files.require_file(arguments.bvh, "--bvh")
+        inputs = {"--motion": arguments.motion, "--asf": arguments.asf}
+        output_files.require_outputs({"--bvh": arguments.bvh},
+                                     {name: path for name, path in inputs.items() if path is not None},
+                                     may_replace=arguments.force)
     options = [f"--motion={arguments.motion}", f"--model={arguments.model}"]
     for option in _ONLY_WITH_MOTION:
         value = getattr(arguments, option)

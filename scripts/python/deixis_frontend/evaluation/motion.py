@@ -9,13 +9,13 @@ from __future__ import annotations
 import argparse
 import csv
 import io
-from pathlib import Path
 from typing import Any
 
 from deixis_frontend import layout, output_files
 from deixis_frontend.evaluation import report_options
 from deixis_frontend.number_options import above_zero
 from deixis_frontend.programs import run_program
+from deixis_frontend.text_options import file_path, name
 
 _TABLES = ("joints", "causes", "recordings", "speeds")
 _TEXTS = {"joint", "motion", "recording", "faulty"}
@@ -23,19 +23,19 @@ _TEXTS = {"joint", "motion", "recording", "faulty"}
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which recordings, whose, judged by what, and where the figures go."""
-    parser.add_argument("--data", type=Path, required=True, metavar="DIR",
+    parser.add_argument("--data", type=file_path, required=True, metavar="DIR",
                         help="folder with .bvh files, or .amc with their .asf")
-    parser.add_argument("--actor", default="", metavar="NAME",
+    parser.add_argument("--actor", type=name, metavar="NAME",
                         help="only recordings of this person: the skeleton's name, as HDM_bd")
-    parser.add_argument("--model", default="whole_body_detailed", metavar="NAME",
+    parser.add_argument("--model", type=name, default="whole_body_detailed", metavar="NAME",
                         help="a model of config/body_models (default: whole_body_detailed)")
     parser.add_argument("--limits", choices=("default", "source"), default="default",
                         help="the default limits, or the source's rows as they are")
-    parser.add_argument("--allowances-of", default="", metavar="NAME",
+    parser.add_argument("--allowances-of", type=name, metavar="NAME",
                         help="judge by the source's rows, widened by what this person needs")
     parser.add_argument("--amc-rate", type=above_zero, default=120.0, metavar="HZ",
                         help="frames per second of .amc files (default: 120)")
-    parser.add_argument("--write-speeds", type=Path, metavar="FILE",
+    parser.add_argument("--write-speeds", type=file_path, metavar="FILE",
                         help="write limits of speed from the recordings of --actor, and stop")
     report_options.add_json(parser)
 
@@ -43,15 +43,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """0; raises UserError when there is nothing to measure."""
     report_options.check(arguments)
-    options = ["--recordings", str(arguments.data), "--model", arguments.model,
-               "--limits", arguments.limits, "--amc-rate", str(arguments.amc_rate)]
+    options = [f"--recordings={arguments.data}", f"--model={arguments.model}",
+               f"--limits={arguments.limits}", f"--amc-rate={arguments.amc_rate}"]
     if arguments.actor:
-        options += ["--actor", arguments.actor]
+        options += [f"--actor={arguments.actor}"]
     if arguments.allowances_of:
-        options += ["--allowances-of", arguments.allowances_of]
+        options += [f"--allowances-of={arguments.allowances_of}"]
     if arguments.write_speeds is not None:
         output_files.require_file(arguments.write_speeds, "--write-speeds")
-        options += ["--write-speeds", str(arguments.write_speeds.absolute())]
+        options += [f"--write-speeds={arguments.write_speeds.absolute()}"]
     text = run_program(layout.find(), "deixis-evaluate-motion", *options)
     if arguments.write_speeds is not None:
         print(f"written: {arguments.write_speeds}")
@@ -65,8 +65,8 @@ def run(arguments: argparse.Namespace) -> int:
 def parse(text: str) -> dict[str, Any]:
     """The program's four tables, with their sums."""
     tables = [list(csv.DictReader(io.StringIO(table))) for table in text.split("\n\n")]
-    report: dict[str, Any] = {name: [_typed(row) for row in rows]
-                              for name, rows in zip(_TABLES, tables, strict=True)}
+    report: dict[str, Any] = {table: [_typed(row) for row in rows]
+                              for table, rows in zip(_TABLES, tables, strict=True)}
     faulty = [row for row in report["joints"] if row["joint"] == "faulty"]
     report["joints"] = [row for row in report["joints"] if row["joint"] != "faulty"]
     frames = sum(row["joint_frames"] for row in report["joints"])

@@ -1,4 +1,4 @@
-#include "services/anthropometer/core/whole_file.h"
+#include "common/files/whole_file.h"
 
 #include <unistd.h>
 
@@ -6,15 +6,13 @@
 #include <cstring>
 #include <fstream>
 
-#include "common/config/config.h"
-
-namespace deixis::anthropometer {
+namespace deixis::files {
 namespace {
 
 namespace fs = std::filesystem;
 
 [[noreturn]] void Refuse(const fs::path& file, const std::string& why) {
-  throw config::ConfigError(file.string() + ": cannot be written: " + why);
+  throw FileError(file.string() + ": cannot be written: " + why);
 }
 
 }  // namespace
@@ -41,4 +39,4 @@ void WriteWhole(const fs::path& file, const std::string& bytes) {
   }
 }
 
-}  // namespace deixis::anthropometer
+}  // namespace deixis::files
