@@ -19,15 +19,14 @@ constexpr double kWidestAngle_rad = 2.0 * M_PI;
 }
 
 void RequireTree(const std::vector<Limb>& limbs) {
-  if (limbs.empty()) throw config::ConfigError("limbs: a body has at least one limb");
+  if (limbs.empty()) throw config::ConfigError("a body has at least one limb");
   if (limbs.size() > BodyModel::kMostLimbs) {
-    throw config::ConfigError("limbs: more than " + std::to_string(BodyModel::kMostLimbs));
+    throw config::ConfigError("more limbs than " + std::to_string(BodyModel::kMostLimbs));
   }
   std::set<std::string> names;
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     const Limb& limb = limbs[i];
-    if (limb.name.empty())
-      throw config::ConfigError("limbs: limb " + std::to_string(i) + " has no name");
+    if (limb.name.empty()) throw config::ConfigError("limb " + std::to_string(i) + " has no name");
     if (!names.insert(limb.name).second) Fail(limb.name, "name", "occurs twice");
     if (i == 0 && limb.parent != -1)
       Fail(limb.name, "parent", "is the first one, so it must have no parent");

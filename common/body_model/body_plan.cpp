@@ -45,6 +45,12 @@ void LimbPlan::Validate() const {
   faults.ThrowIfAny();
 }
 
+void BodyPlan::Validate() const {
+  config::Faults faults;
+  faults.Require(!limbs.empty(), "limbs", "must have a limb");
+  faults.ThrowIfAny();
+}
+
 BodyPlan LoadBodyPlan(const std::filesystem::path& path) { return config::Load<BodyPlan>(path); }
 
 std::vector<std::string> MeasuresOf(const BodyPlan& plan) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "common/config/config.h"
 
@@ -88,6 +90,17 @@ void JointPlan::Validate() const {
   faults.Require(has_reach || !angles.empty(), "angles", "must not be empty without a reach");
   faults.Require(shares_rotation_below_deg >= 0.0 && shares_rotation_below_deg <= 45.0,
                  "shares_rotation_below_deg", "must lie in 0..45");
+  faults.ThrowIfAny();
+}
+
+void RangePlan::Validate() const {
+  config::Faults faults;
+  faults.Require(!joints.empty(), "joints", "must name a joint");
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    faults.Require(seen.insert(joints[i].joint).second, "joints[" + std::to_string(i) + "].joint",
+                   "'" + joints[i].joint + "' is there already");
+  }
   faults.ThrowIfAny();
 }
 

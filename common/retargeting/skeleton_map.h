@@ -63,6 +63,7 @@ struct SkeletonMap {
     v("left", left);
     v("limbs", limbs);
   }
+  void Validate() const;  ///< Throws FaultsFound.
 };
 
 /// Reads a file of config/skeletons. Throws ConfigError naming file, line and key.

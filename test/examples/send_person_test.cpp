@@ -46,7 +46,7 @@ double FlexionOf(const std::string& name, const body_model::BodyModel& model,
                  const body_model::BodyPose& pose) {
   const auto rows = anatomy::JointLimits::Load(config::FindConfig("kinematics/joint_limits.yaml"));
   const auto plan =
-      range_of_motion::LoadRangePlan(config::FindConfig("kinematics/range_of_motion.yaml"));
+      range_of_motion::LoadRangePlan(config::FindConfig("kinematics/range_of_motion.yaml"), rows);
   const range_of_motion::RangeOfMotion ranges(model, plan, rows);
   body_model::Kinematics kinematics(model);
   kinematics.Update(pose);

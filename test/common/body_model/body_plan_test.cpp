@@ -168,7 +168,7 @@ TEST_F(BodyPlanTest, SaysWhatIsWrongWithATree) {
                      "'right_upper_arm': is its own ancestor"));
   EXPECT_TRUE(SaysOf(torso + replaced(torso.substr(torso.find("  - name")), "torso", "tail"),
                      "'tail': has no parent, but 'torso' is the base limb"));
-  EXPECT_TRUE(SaysOf("name: none\nlimbs: []\n", "one must be the base limb"));
+  EXPECT_TRUE(SaysOf("name: none\nlimbs: []\n", "key 'limbs' must have a limb"));
   EXPECT_TRUE(SaysOf(torso + replaced(arm, "of: arm", "of: leg"), "measure 'leg' is not known"));
   EXPECT_TRUE(SaysOf(torso + replaced(arm, "rest_x: [1, 0, 0]", "rest_x: [0.2, -1, 0]"),
                      "rest_x must not be parallel"));
