@@ -1,5 +1,6 @@
 #include "common/body_model/body_model.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -12,6 +13,7 @@ namespace deixis::body_model {
 namespace {
 
 constexpr double kUnitTolerance = 1e-6;
+constexpr double kLeastSine = 1e-3;  // Between the axes of two swings.
 constexpr double kWidestAngle_rad = 2.0 * M_PI;
 
 [[noreturn]] void Fail(const std::string& limb, const std::string& key, const std::string& fault) {
@@ -88,6 +90,18 @@ void RequireDof(const Limb& limb, const DegreeOfFreedom& dof) {
   }
 }
 
+/// Two swings about one axis would be one angle under two names.
+void RequireSwings(const Limb& limb) {
+  const DegreeOfFreedom* first = nullptr;
+  for (const DegreeOfFreedom& dof : limb.dofs) {
+    if (dof.kind != DofKind::kSwing) continue;
+    if (first != nullptr && first->axis.cross(dof.axis).norm() < kLeastSine) {
+      Fail(limb.name, "angles", first->name + " and " + dof.name + " swing about the same axis");
+    }
+    first = &dof;
+  }
+}
+
 void RequireJoint(const Limb& limb) {
   if (limb.parent < 0 && !limb.dofs.empty()) {
     Fail(limb.name, "angles",
@@ -108,6 +122,7 @@ void RequireJoint(const Limb& limb) {
   if (count(DofKind::kSwing) > 2 || count(DofKind::kTwist) > 1) {
     Fail(limb.name, "angles", "has more than two swings or one twist");
   }
+  RequireSwings(limb);
 }
 
 }  // namespace

@@ -135,6 +135,12 @@ TEST_F(BodyPlanTest, NamesFileLineAndKeyOfWhatIsWrong) {
                    "measure 'tail' is not known"},
         BrokenBody{"min_deg: -90", "min_deg: 95",
                    "sample.yaml:17: key 'limbs[1].angles[0].max_deg'", "between min_deg and 360"},
+        BrokenBody{"min_deg: -90, max_deg: 90", "min_deg: 10, max_deg: 20",
+                   "sample.yaml:17: key 'limbs[1].angles[0].min_deg'", "above 0"},
+        BrokenBody{"min_deg: -90, max_deg: 90", "min_deg: -20, max_deg: -10",
+                   "sample.yaml:17: key 'limbs[1].angles[0].max_deg'", "below 0"},
+        BrokenBody{"axis: [1, 0, 0]", "axis: [0, -2, 0]", "key 'limbs[1].angles'",
+                   "abduction and flexion swing about the same axis"},
         BrokenBody{"rest_x: [1, 0, 0]", "rest_x: [0.2, -1, 0]",
                    "sample.yaml:12: key 'limbs[1].rest_x'", "parallel"}}) {
     std::string text = good;
