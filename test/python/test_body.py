@@ -249,3 +249,9 @@ def faces_of(data: bytes) -> Iterator[tuple[int, int, int]]:
     for corners, a, b, c in struct.iter_unpack("<B3i", data):
         assert corners == 3
         yield a, b, c
+
+
+def test_one_angle_takes_one_value(capsys: pytest.CaptureFixture[str]) -> None:
+    twice = ["--angle", "left_lower_arm.flexion=10", "--angle", "left_lower_arm.flexion=20"]
+    assert main([*PERSON, *twice]) != 0
+    assert "left_lower_arm.flexion is given twice" in capsys.readouterr().err

@@ -60,6 +60,11 @@ TEST(JointLimits, SayWhyWhereTheyDifferFromWhatWasPrinted) {
   EXPECT_EQ(corrected, 13);  // Vental 3, refelexion, outside rotation, defection 6, the knee 2.
 }
 
+TEST(JointLimits, AreFoundHoweverWideTheSpacesAre) {
+  EXPECT_EQ(Shipped().Of("knee  joint").size(), 4u);
+  EXPECT_TRUE(Shipped().Of("kneejoint").empty());
+}
+
 TEST(JointLimits, AreRefusedWithoutRows) {
   const test::TemporaryFolder folder;
   for (const char* text : {"", "joints: []\nmotions: []\nlimits: []\n"}) {
