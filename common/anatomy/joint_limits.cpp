@@ -49,6 +49,8 @@ struct LimitsFile {
   }
   void Validate() const {
     config::Faults faults;
+    faults.Require(!joints.empty(), "joints", "must name a joint");
+    faults.Require(!limits.empty(), "limits", "must have a row");
     RequireOnce(joints, "joints", faults);
     RequireOnce(motions, "motions", faults);
     std::set<std::tuple<std::string, Posture, std::string>> rows;

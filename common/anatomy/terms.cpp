@@ -1,6 +1,8 @@
 #include "common/anatomy/terms.h"
 
+#include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "common/config/config.h"
 
@@ -11,6 +13,12 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
   for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
     text.replace(at, from.size(), to);
   }
+  return text;
+}
+
+std::string WithSingleSpaces(std::string text) {
+  const auto are_spaces = [](char left, char right) { return left == ' ' && right == ' '; };
+  text.erase(std::unique(text.begin(), text.end(), are_spaces), text.end());
   return text;
 }
 
@@ -29,7 +37,7 @@ std::string Plain(std::string text) {
                                                         {"ß", "ss"}}) {
     text = Replaced(text, umlaut, letters);
   }
-  return text;
+  return WithSingleSpaces(std::move(text));
 }
 
 }  // namespace

@@ -140,6 +140,7 @@ struct MeasuresFile {
   }
   void Validate() const {
     config::Faults faults;
+    faults.Require(!measures.empty(), "measures", "must have a measure");
     std::set<std::string> names;
     for (std::size_t i = 0; i < measures.size(); ++i) {
       const std::string key = "measures[" + std::to_string(i) + "]";

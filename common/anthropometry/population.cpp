@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -79,6 +80,10 @@ struct PopulationsFile {
   }
   void Validate() const {
     config::Faults faults;
+    faults.Require(!measures.empty(), "measures", "must name a measure");
+    faults.Require(
+        std::set<std::string>(measures.begin(), measures.end()).size() == measures.size(),
+        "measures", "must name each measure once");
     faults.Require(offset_mm.empty() || offset_mm.size() == measures.size(), "offset_mm",
                    "must be as many as measures, or none");
     faults.Require(std::all_of(offset_mm.begin(), offset_mm.end(),

@@ -67,7 +67,7 @@ void RequireParents(const std::vector<Member>& members) {
     }
   }
   if (base.empty()) {
-    throw config::ConfigError("limbs: every limb has a parent; one must be the base limb, without");
+    throw config::ConfigError("every limb has a parent; one must be the base limb, without");
   }
 }
 

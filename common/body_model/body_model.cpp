@@ -1,5 +1,6 @@
 #include "common/body_model/body_model.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -12,6 +13,7 @@ namespace deixis::body_model {
 namespace {
 
 constexpr double kUnitTolerance = 1e-6;
+constexpr double kLeastSine = 1e-3;  // Between the axes of two swings.
 constexpr double kWidestAngle_rad = 2.0 * M_PI;
 
 [[noreturn]] void Fail(const std::string& limb, const std::string& key, const std::string& fault) {
@@ -19,15 +21,14 @@ constexpr double kWidestAngle_rad = 2.0 * M_PI;
 }
 
 void RequireTree(const std::vector<Limb>& limbs) {
-  if (limbs.empty()) throw config::ConfigError("limbs: a body has at least one limb");
+  if (limbs.empty()) throw config::ConfigError("a body has at least one limb");
   if (limbs.size() > BodyModel::kMostLimbs) {
-    throw config::ConfigError("limbs: more than " + std::to_string(BodyModel::kMostLimbs));
+    throw config::ConfigError("more limbs than " + std::to_string(BodyModel::kMostLimbs));
   }
   std::set<std::string> names;
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     const Limb& limb = limbs[i];
-    if (limb.name.empty())
-      throw config::ConfigError("limbs: limb " + std::to_string(i) + " has no name");
+    if (limb.name.empty()) throw config::ConfigError("limb " + std::to_string(i) + " has no name");
     if (!names.insert(limb.name).second) Fail(limb.name, "name", "occurs twice");
     if (i == 0 && limb.parent != -1)
       Fail(limb.name, "parent", "is the first one, so it must have no parent");
@@ -89,6 +90,18 @@ void RequireDof(const Limb& limb, const DegreeOfFreedom& dof) {
   }
 }
 
+/// Two swings about one axis would be one angle under two names.
+void RequireSwings(const Limb& limb) {
+  const DegreeOfFreedom* first = nullptr;
+  for (const DegreeOfFreedom& dof : limb.dofs) {
+    if (dof.kind != DofKind::kSwing) continue;
+    if (first != nullptr && first->axis.cross(dof.axis).norm() < kLeastSine) {
+      Fail(limb.name, "angles", first->name + " and " + dof.name + " swing about the same axis");
+    }
+    first = &dof;
+  }
+}
+
 void RequireJoint(const Limb& limb) {
   if (limb.parent < 0 && !limb.dofs.empty()) {
     Fail(limb.name, "angles",
@@ -109,6 +122,7 @@ void RequireJoint(const Limb& limb) {
   if (count(DofKind::kSwing) > 2 || count(DofKind::kTwist) > 1) {
     Fail(limb.name, "angles", "has more than two swings or one twist");
   }
+  RequireSwings(limb);
 }
 
 }  // namespace

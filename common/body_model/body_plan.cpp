@@ -32,6 +32,9 @@ void AnglePlan::Validate() const {
   faults.Require(min_deg >= -360.0 && min_deg <= 360.0, "min_deg", "must lie in -360..360");
   faults.Require(max_deg >= min_deg && max_deg <= 360.0, "max_deg",
                  "must lie between min_deg and 360");
+  // Rest and standing poses have zeros, which must be within the limits.
+  faults.Require(min_deg <= 0.0, "min_deg", "must not be above 0, where the limb rests");
+  faults.Require(max_deg >= 0.0, "max_deg", "must not be below 0, where the limb rests");
   faults.ThrowIfAny();
 }
 
@@ -42,6 +45,12 @@ void LimbPlan::Validate() const {
   faults.Require(is_base || IsDirection(rest_z), "rest_z", "must be three numbers, not all zero");
   faults.Require(is_base || IsDirection(rest_x), "rest_x", "must be three numbers, not all zero");
   faults.Require(!is_base || side == Side::kOnce, "side", "must be once of the base limb");
+  faults.ThrowIfAny();
+}
+
+void BodyPlan::Validate() const {
+  config::Faults faults;
+  faults.Require(!limbs.empty(), "limbs", "must have a limb");
   faults.ThrowIfAny();
 }
 

@@ -126,6 +126,7 @@ struct BodyPlan {
     v("name", name);
     v("limbs", limbs);
   }
+  void Validate() const;  ///< Throws FaultsFound.
 };
 
 /// Reads a file of config/body_models. Throws ConfigError naming file, line and key.

@@ -62,7 +62,7 @@ struct TrackedBody {
   BodyPose pose;
   Eigen::Vector3d root_velocity_m_per_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d root_rate_rad_per_s = Eigen::Vector3d::Zero();  ///< Angular, in the frame.
-  Eigen::VectorXd rates_rad_per_s;  ///< One per angle; zeros = not known.
+  Eigen::VectorXd rates_rad_per_s;  ///< One per angle; empty or zeros = not known.
   /// Of root translation (metres), root rotation (a rotation vector in the frame, radians) and
   /// angles (radians), in the order of PointJacobian; 0 x 0 = not known.
   Eigen::MatrixXd covariance;

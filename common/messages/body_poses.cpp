@@ -51,6 +51,12 @@ MatrixXd ToFullCovariance(const body_pose_t& message) {
   return covariance;
 }
 
+/// Zeros stand for rates that nobody knows.
+std::vector<double> FromRates(const VectorXd& rates, Eigen::Index count) {
+  if (rates.size() == 0) return std::vector<double>(static_cast<std::size_t>(count));
+  return FromAngles(rates, count);
+}
+
 std::vector<float> FromFullCovariance(const TrackedBody& body) {
   const MatrixXd& covariance = body.covariance;
   if (covariance.size() == 0) return {};
@@ -142,7 +148,7 @@ body_pose_t FromBody(const TrackedBody& body) {
   const Eigen::Index angle_count = body.pose.angles_rad.size();
   message.n_angles = static_cast<std::int32_t>(angle_count);
   message.angles_rad = FromAngles(body.pose.angles_rad, angle_count);
-  message.rates_rad_per_s = FromAngles(body.rates_rad_per_s, angle_count);
+  message.rates_rad_per_s = FromRates(body.rates_rad_per_s, angle_count);
   message.covariance = FromFullCovariance(body);
   message.n_covariance = static_cast<std::int32_t>(message.covariance.size());
   for (const LimbPose& limb : body.limbs) message.limbs.push_back(FromLimb(limb));

@@ -40,6 +40,19 @@ void RequireChain(const BodyModel& model, const JointPlan& plan, const std::vect
 
 }  // namespace
 
+RangePlan LoadRangePlan(const std::filesystem::path& path, const anatomy::JointLimits& rows) {
+  RangePlan plan = LoadRangePlan(path);
+  for (std::size_t i = 0; i < plan.joints.size(); ++i) {
+    try {
+      const AnatomicalJoint tried(plan.joints[i], BodySide::kRight, rows, Limits::kDefault);
+    } catch (const config::ConfigError& error) {
+      throw config::ConfigError(config::PlaceOf(path, "joints[" + std::to_string(i) + "]") + ": " +
+                                error.what());
+    }
+  }
+  return plan;
+}
+
 std::string ModelJoint::Name() const { return Prefix(joint.side()) + joint.joint(); }
 
 RangeOfMotion::RangeOfMotion(const BodyModel& model, const RangePlan& plan,

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct JointState {
   AnatomicalAngles angles = AnatomicalAngles::Zero();
   Margins margins;
 };
+
+/// Reads config/kinematics/range_of_motion.yaml. Throws ConfigError naming file, line and key, also
+/// of a joint that has no row for one of its motions.
+RangePlan LoadRangePlan(const std::filesystem::path& path, const anatomy::JointLimits& rows);
 
 /// The anatomical joints of one body model: those of the plan whose limbs it has, found by name.
 class RangeOfMotion {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "common/config/config.h"
 
@@ -106,6 +108,17 @@ void JointPlan::Validate() const {
   for (const AllowancePlan& allowance : allowed_beyond) {
     faults.Require(Moves(*this, allowance.motion), "allowed_beyond",
                    "'" + allowance.motion + "' is no motion of this joint");
+  }
+  faults.ThrowIfAny();
+}
+
+void RangePlan::Validate() const {
+  config::Faults faults;
+  faults.Require(!joints.empty(), "joints", "must name a joint");
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    faults.Require(seen.insert(joints[i].joint).second, "joints[" + std::to_string(i) + "].joint",
+                   "'" + joints[i].joint + "' is there already");
   }
   faults.ThrowIfAny();
 }

@@ -108,6 +108,7 @@ struct RangePlan {
   void Visit(Visitor& v) {
     v("joints", joints);
   }
+  void Validate() const;  ///< Throws FaultsFound.
 };
 
 /// Reads config/kinematics/range_of_motion.yaml. Throws ConfigError naming file, line and key.

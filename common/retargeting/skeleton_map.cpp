@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 #include "common/config/config.h"
 
@@ -72,6 +73,24 @@ void LimbSource::Validate() const {
   faults.Require(!joint.empty(), "joint", "must not be empty");
   faults.Require(side == Sides::kOnce || joint.find(kSide) != std::string::npos, "joint",
                  "must hold {side} of a limb on both sides");
+  faults.Require(ends_at.empty() || ends_at != (starts_at.empty() ? joint : starts_at), "ends_at",
+                 "must be another joint than where the limb starts");
+  faults.ThrowIfAny();
+}
+
+void SkeletonMap::Validate() const {
+  config::Faults faults;
+  faults.Require(!name.empty(), "name", "must not be empty");
+  faults.Require(!limbs.empty(), "limbs", "must name a limb");
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    const bool is_once = limbs[i].side == Sides::kOnce;
+    for (const char* prefix : is_once ? std::vector{""} : std::vector{"right_", "left_"}) {
+      const std::string limb = prefix + limbs[i].limb;
+      faults.Require(seen.insert(limb).second, "limbs[" + std::to_string(i) + "].limb",
+                     "'" + limb + "' is there already");
+    }
+  }
   faults.ThrowIfAny();
 }
 

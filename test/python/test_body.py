@@ -290,3 +290,9 @@ def test_empty_texts_are_wrong_usage(command: str, capsys: pytest.CaptureFixture
             main([*words.split(), f"--{option}", ""])
         assert end.value.code == 2
         assert f"argument --{option}: is empty" in capsys.readouterr().err
+
+
+def test_one_angle_takes_one_value(capsys: pytest.CaptureFixture[str]) -> None:
+    twice = ["--angle", "left_lower_arm.flexion=10", "--angle", "left_lower_arm.flexion=20"]
+    assert main([*PERSON, *twice]) != 0
+    assert "left_lower_arm.flexion is given twice" in capsys.readouterr().err

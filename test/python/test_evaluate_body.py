@@ -67,6 +67,17 @@ def test_several_sets_are_measured_when_none_is_named(survey: Path, capsys: pyte
 def test_what_is_no_measure_or_no_survey_is_told(survey: Path, tmp_path: Path,
                                                  capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["evaluate", "body", "--data", str(survey), "--given", "tail"]) == 1
-    assert "--given tail is no measure" in capsys.readouterr().err
+    assert "--given tail is no measure of kinematics/population.yaml: there are " in capsys.readouterr().err
+    assert main(["evaluate", "body", "--data", str(survey), "--given", "kph,body height"]) == 1
+    assert "--given body height: kph is given already" in capsys.readouterr().err
+
+
+def test_known_measures_are_named_in_any_language(survey: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    figures = []
+    for name in ("kph", "Körperhöhe"):
+        assert main(["evaluate", "body", "--data", str(survey), "--given", name, "--error", "1"]) == 0
+        figures.append(capsys.readouterr().out.splitlines())
+    assert figures[1][0] == "40 people, known: Körperhöhe +- 1 mm"
+    assert figures[0][1:] == figures[1][1:]
     assert main(["evaluate", "body", "--data", str(tmp_path / "none")]) == 1
     assert "ANSUR_II_FEMALE_Public.csv:1: cannot be read" in capsys.readouterr().err

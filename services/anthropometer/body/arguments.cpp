@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "common/body_model/joint_angles.h"
 #include "common/config/config.h"
@@ -156,7 +158,14 @@ Arguments Parse(int argc, char** argv) {
 body_model::BodyPose PoseOf(const BodyModel& model, const Arguments& arguments) {
   body_model::BodyPose pose =
       arguments.pose == StartingPose::kStanding ? Standing(model) : RestPose(model);
-  for (const AngleSetting& setting : arguments.angles) Bend(model, setting, pose);
+  std::set<std::pair<std::string, std::string>> bent;
+  for (const AngleSetting& setting : arguments.angles) {
+    if (!bent.emplace(setting.limb, setting.angle).second) {
+      throw config::ConfigError("--angle " + setting.limb + "." + setting.angle +
+                                " is given twice");
+    }
+    Bend(model, setting, pose);
+  }
   return pose;
 }
 

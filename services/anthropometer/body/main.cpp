@@ -42,7 +42,8 @@ Person PersonOf(const Arguments& arguments) {
 
 range_of_motion::RangeOfMotion RangeOf(const body_model::BodyModel& model,
                                        const anatomy::JointLimits& limits) {
-  return {model, range_of_motion::LoadRangePlan(FindConfig("kinematics/range_of_motion.yaml")),
+  return {model,
+          range_of_motion::LoadRangePlan(FindConfig("kinematics/range_of_motion.yaml"), limits),
           limits};
 }
 
@@ -62,7 +63,8 @@ Json Told(const Person& person, const body_model::BodyModel& model,
   }
   if (is_all || !request.joint.empty()) {
     const auto limits = ShippedLimits();
-    const auto plan = range_of_motion::LoadRangePlan(FindConfig("kinematics/range_of_motion.yaml"));
+    const auto plan =
+        range_of_motion::LoadRangePlan(FindConfig("kinematics/range_of_motion.yaml"), limits);
     parts["joint_limits"] = JointLimitsJson(limits, plan, request);
     parts["speed_limits"] = SpeedLimitsJson(
         range_of_motion::LoadSpeedLimits(FindConfig("kinematics/joint_speeds.yaml")), limits,

@@ -1,6 +1,7 @@
 // Measures how well a person's sizes and sex follow from a few lengths, with people of a survey
 // that the figures were not learned from; and writes the figures anew from the other half.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -76,6 +77,29 @@ void Print(const PopulationScore& score) {
       score.sex.calibration_error, score.sex.brier);
 }
 
+/// The abbreviations of measures that are named in any language.
+std::vector<std::string> GivenOf(const std::vector<std::string>& names,
+                                 const anthropometry::BodyMeasures& measures,
+                                 const anthropometry::Populations& populations) {
+  std::vector<std::string> given;
+  for (const std::string& name : names) {
+    const anthropometry::BodyMeasure* measure = measures.Find(name);
+    if (measure == nullptr || !populations.Find(measure->name)) {
+      std::string known;
+      for (const std::string& one : populations.measures()) {
+        known += (known.empty() ? "" : ", ") + one;
+      }
+      throw config::ConfigError("--given " + name +
+                                " is no measure of kinematics/population.yaml: there are " + known);
+    }
+    if (std::find(given.begin(), given.end(), measure->name) != given.end()) {
+      throw config::ConfigError("--given " + name + ": " + measure->name + " is given already");
+    }
+    given.push_back(measure->name);
+  }
+  return given;
+}
+
 void Run(const Arguments& arguments) {
   const auto measures = ShippedMeasures();
   const Surveys surveys{Survey::Read(arguments.data / "ANSUR_II_FEMALE_Public.csv"),
@@ -86,13 +110,8 @@ void Run(const Arguments& arguments) {
   }
   const auto populations =
       anthropometry::Populations::Load(config::FindConfig("kinematics/population.yaml"));
-  for (const std::string& name : arguments.given) {
-    if (!populations.Find(name)) {
-      throw config::ConfigError("--given " + name + " is no measure of kinematics/population.yaml");
-    }
-  }
-  Print(Score(populations, measures, surveys, Half::kEven, arguments.given,
-              0.001 * arguments.error_mm));
+  Print(Score(populations, measures, surveys, Half::kEven,
+              GivenOf(arguments.given, measures, populations), 0.001 * arguments.error_mm));
 }
 
 }  // namespace

@@ -155,7 +155,8 @@ SpeedSamples SpeedsOf(const std::vector<fs::path>& files, const RecordingReader&
 
 void Run(const Arguments& arguments) {
   const auto rows = anatomy::JointLimits::Load(config::FindConfig("kinematics/joint_limits.yaml"));
-  auto plan = range_of_motion::LoadRangePlan(config::FindConfig("kinematics/range_of_motion.yaml"));
+  auto plan =
+      range_of_motion::LoadRangePlan(config::FindConfig("kinematics/range_of_motion.yaml"), rows);
   motion::ClipOptions options;
   options.amc_frame_rate_hz = arguments.amc_rate_hz;
   const RecordingReader reader(arguments.model, options);

@@ -69,7 +69,7 @@ struct Excess {
 Json LimitsJson(const Retargeted& recording) {
   const auto rows = anatomy::JointLimits::Load(config::FindConfig("kinematics/joint_limits.yaml"));
   const auto plan =
-      range_of_motion::LoadRangePlan(config::FindConfig("kinematics/range_of_motion.yaml"));
+      range_of_motion::LoadRangePlan(config::FindConfig("kinematics/range_of_motion.yaml"), rows);
   const range_of_motion::RangeOfMotion ranges(recording.motion.model, plan, rows);
   body_model::Kinematics kinematics(recording.motion.model);
   std::vector<range_of_motion::JointState> states;

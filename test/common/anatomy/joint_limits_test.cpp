@@ -60,6 +60,25 @@ TEST(JointLimits, SayWhyWhereTheyDifferFromWhatWasPrinted) {
   EXPECT_EQ(corrected, 13);  // Vental 3, refelexion, outside rotation, defection 6, the knee 2.
 }
 
+TEST(JointLimits, AreFoundHoweverWideTheSpacesAre) {
+  EXPECT_EQ(Shipped().Of("knee  joint").size(), 4u);
+  EXPECT_TRUE(Shipped().Of("kneejoint").empty());
+}
+
+TEST(JointLimits, AreRefusedWithoutRows) {
+  const test::TemporaryFolder folder;
+  for (const char* text : {"", "joints: []\nmotions: []\nlimits: []\n"}) {
+    const auto path = folder.Write("limits.yaml", text);
+    try {
+      JointLimits::Load(path);
+      ADD_FAILURE() << "were taken";
+    } catch (const config::ConfigError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("limits.yaml"));
+      EXPECT_THAT(error.what(), HasSubstr("'limits'"));
+    }
+  }
+}
+
 TEST(JointLimits, KeepRangesAsRanges) {
   const JointLimit& wrist = Shipped().At("wrist", Posture::kAny, "dorsal_extension");
   EXPECT_EQ(wrist.low_deg, 40.0);

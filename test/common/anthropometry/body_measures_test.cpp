@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "common/anthropometry/population.h"
 #include "common/config/config.h"
 #include "test/support/temporary_folder.h"
 
@@ -85,6 +86,24 @@ TEST(BodyMeasures, NameFileAndKeyOfWhatIsWrong) {
   }
   EXPECT_THAT(loading(good + good.substr(good.find("  -"))),
               testing::ThrowsMessage<config::ConfigError>(HasSubstr("'a' is there already")));
+  EXPECT_THAT(loading(""),
+              testing::ThrowsMessage<config::ConfigError>(HasSubstr("'measures' must have")));
+}
+
+TEST(Populations, AreRefusedWithoutMeasuresAndWithOneTwice) {
+  const test::TemporaryFolder folder;
+  const auto loading = [&folder](const std::string& text) {
+    return [&folder, text] { Populations::Load(folder.Write("population.yaml", text)); };
+  };
+  const auto complains = [](const char* fault) {
+    return testing::ThrowsMessage<config::ConfigError>(
+        testing::AllOf(HasSubstr("population.yaml"), HasSubstr(fault)));
+  };
+  EXPECT_THAT(loading(""), complains("'measures' must name a measure"));
+  const std::string people = "{mean_mm: [9, 9], spread_mm: [1, 1], correlation: [[1], [0, 1]]}\n";
+  EXPECT_NO_THROW(loading("measures: [a, b]\nfemale: " + people + "male: " + people)());
+  EXPECT_THAT(loading("measures: [a, a]\nfemale: " + people + "male: " + people),
+              complains("each measure once"));
 }
 
 }  // namespace

@@ -135,6 +135,12 @@ TEST_F(BodyPlanTest, NamesFileLineAndKeyOfWhatIsWrong) {
                    "measure 'tail' is not known"},
         BrokenBody{"min_deg: -90", "min_deg: 95",
                    "sample.yaml:17: key 'limbs[1].angles[0].max_deg'", "between min_deg and 360"},
+        BrokenBody{"min_deg: -90, max_deg: 90", "min_deg: 10, max_deg: 20",
+                   "sample.yaml:17: key 'limbs[1].angles[0].min_deg'", "above 0"},
+        BrokenBody{"min_deg: -90, max_deg: 90", "min_deg: -20, max_deg: -10",
+                   "sample.yaml:17: key 'limbs[1].angles[0].max_deg'", "below 0"},
+        BrokenBody{"axis: [1, 0, 0]", "axis: [0, -2, 0]", "key 'limbs[1].angles'",
+                   "abduction and flexion swing about the same axis"},
         BrokenBody{"rest_x: [1, 0, 0]", "rest_x: [0.2, -1, 0]",
                    "sample.yaml:12: key 'limbs[1].rest_x'", "parallel"}}) {
     std::string text = good;
@@ -168,7 +174,7 @@ TEST_F(BodyPlanTest, SaysWhatIsWrongWithATree) {
                      "'right_upper_arm': is its own ancestor"));
   EXPECT_TRUE(SaysOf(torso + replaced(torso.substr(torso.find("  - name")), "torso", "tail"),
                      "'tail': has no parent, but 'torso' is the base limb"));
-  EXPECT_TRUE(SaysOf("name: none\nlimbs: []\n", "one must be the base limb"));
+  EXPECT_TRUE(SaysOf("name: none\nlimbs: []\n", "key 'limbs' must have a limb"));
   EXPECT_TRUE(SaysOf(torso + replaced(arm, "of: arm", "of: leg"), "measure 'leg' is not known"));
   EXPECT_TRUE(SaysOf(torso + replaced(arm, "rest_x: [1, 0, 0]", "rest_x: [0.2, -1, 0]"),
                      "rest_x must not be parallel"));

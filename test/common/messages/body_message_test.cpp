@@ -74,6 +74,16 @@ TEST_P(ShippedBodies, HavePosesThatSurviveTheirOwnEncodingBitForBit) {
   }
 }
 
+TEST_P(ShippedBodies, TravelWithZerosForRatesThatAreNotKnown) {
+  std::mt19937 random(13);
+  const BodyModel model = Shipped("whole_body", GetParam());
+  TrackedBody body = BodyOf(model, random);
+  body.rates_rad_per_s = {};
+  const TrackedBody decoded = RoundTrip(PosesOf(body)).bodies.at(0);
+  ASSERT_EQ(decoded.rates_rad_per_s.size(), model.angle_count());
+  EXPECT_TRUE(decoded.rates_rad_per_s.isZero(0.0));
+}
+
 TEST_P(ShippedBodies, TellWhereTheirLimbsAre) {
   std::mt19937 random(12);
   for (const std::string& name : body_model::ShippedNames()) {
@@ -175,7 +185,7 @@ TEST(PosesMessage, DoesNotGoOutWithNumbersThatNobodyTakes) {
   for (const auto& change : std::vector<std::function<void(TrackedBody&)>>{
            [](auto& body) { body.pose.angles_rad[2] = kNan; },
            [](auto& body) { body.rates_rad_per_s[2] = kInfinity; },
-           [](auto& body) { body.rates_rad_per_s.resize(0); },
+           [](auto& body) { body.rates_rad_per_s.conservativeResize(2); },
            [](auto& body) { body.covariance(4, 2) = kNan; },
            [](auto& body) { body.covariance(4, 2) = 1e200; },  // No number in single precision.
            [](auto& body) { body.covariance.conservativeResize(8, 8); },

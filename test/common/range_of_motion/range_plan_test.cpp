@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "common/config/config.h"
+#include "common/range_of_motion/range_of_motion.h"
+#include "test/common/range_of_motion/range_samples.h"
 #include "test/support/temporary_folder.h"
 
 namespace deixis::range_of_motion {
@@ -67,6 +69,33 @@ INSTANTIATE_TEST_SUITE_P(
                            "    reach: {rest_z: [0, 1, 0], knots: [{motion: flexion, towards: [1, "
                            "0, 0]}]}\n    angles:",
                            "knots"}));
+
+// What LoadRangePlan says of such a file.
+std::string SaysOf(const std::string& text) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.Write("ranges.yaml", text);
+  try {
+    LoadRangePlan(path, ShippedRows());
+  } catch (const config::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RangePlan, IsRefusedWithoutJointsAndWithOneTwice) {
+  EXPECT_EQ(SaysOf(kGood), "");
+  EXPECT_THAT(SaysOf(""), testing::HasSubstr("ranges.yaml"));
+  EXPECT_THAT(SaysOf(""), testing::HasSubstr("'joints'"));
+  EXPECT_THAT(SaysOf("joints: []\n"), testing::HasSubstr("ranges.yaml:1: key 'joints'"));
+  EXPECT_THAT(SaysOf(kGood + kGood.substr(kGood.find("  - joint"))),
+              testing::HasSubstr("ranges.yaml:8: key 'joints[1].joint'"));
+}
+
+TEST(RangePlan, IsRefusedByFileAndLineWhenAMotionHasNoRow) {
+  std::string text = kGood;
+  text.replace(text.find("joint: elbow"), 12, "joint: tail");
+  EXPECT_THAT(SaysOf(text), testing::HasSubstr("ranges.yaml:2: key 'joints[0]': joint 'tail'"));
+}
 
 TEST(RangePlan, IsReadWhenItIsRight) {
   const test::TemporaryFolder folder;

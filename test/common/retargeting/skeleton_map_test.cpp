@@ -58,6 +58,30 @@ TEST(SkeletonMap, ListsTheJointsThatNoMapKnows) {
   }
 }
 
+TEST(SkeletonMap, NamesFileLineAndKeyOfWhatIsWrong) {
+  const test::TemporaryFolder folder;
+  const std::string head = "name: m\nright: r\nleft: l\nlimbs:\n";
+  const std::string hand = "  - {limb: hand, side: both, joint: \"{side}hand\"}\n";
+  struct Broken {
+    std::string text, complaint;
+  };
+  for (const Broken& broken :
+       {Broken{"", "key 'limbs'"}, Broken{"name: m\nlimbs: []\n", "map.yaml:2: key 'limbs'"},
+        Broken{"name: ''\nlimbs:\n  - {limb: head, joint: Head}\n", "map.yaml:1: key 'name'"},
+        Broken{head + hand + hand, "map.yaml:6: key 'limbs[1].limb'"},
+        Broken{head + hand + "  - {limb: left_hand, joint: x}\n", "'left_hand' is there already"},
+        Broken{head + "  - {limb: head, joint: Head, ends_at: Head}\n", "limbs[0].ends_at"},
+        Broken{head + "  - {limb: head, joint: a, starts_at: b, ends_at: b}\n", ".ends_at"}}) {
+    const auto path = folder.Write("map.yaml", broken.text);
+    try {
+      LoadSkeletonMap(path);
+      ADD_FAILURE() << broken.text << " was taken";
+    } catch (const config::ConfigError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(broken.complaint));
+    }
+  }
+}
+
 TEST(SkeletonMap, RefusesALimbOnBothSidesWithOneJoint) {
   const test::TemporaryFolder folder;
   const auto path = folder.Write("map.yaml",
