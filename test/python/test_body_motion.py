@@ -144,8 +144,17 @@ def test_a_pipe_as_bvh_stays_a_pipe(tmp_path: Path, capsys: pytest.CaptureFixtur
     write_bvh(tmp_path / "in.bvh", bends(3))
     os.mkfifo(tmp_path / "pipe")
     assert main(["body", "--motion", str(tmp_path / "in.bvh"), "--bvh", str(tmp_path / "pipe"), "--force"]) == 1
-    assert "is no regular file" in capsys.readouterr().err
+    assert "is a pipe: name a file" in capsys.readouterr().err
     assert (tmp_path / "pipe").is_fifo()
+
+
+@pytest.mark.parametrize("command", ["motion --json", "motion --write-speeds", "body --json"])
+def test_evaluations_refuse_pipes_before_the_work(command: str, tmp_path: Path,
+                                                  capsys: pytest.CaptureFixture[str]) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    what, option = command.split()
+    assert main(["evaluate", what, "--data", str(tmp_path), option, str(tmp_path / "pipe")]) == 1
+    assert f"{option} {tmp_path / 'pipe'} is a pipe" in capsys.readouterr().err
 
 
 @pytest.mark.skipif(not Path("/dev/full").is_char_device(), reason="no /dev/full here")
