@@ -81,7 +81,13 @@ def test_a_broken_motion_is_told_by_file_and_line(text: str, hint: str, tmp_path
 @pytest.mark.parametrize(("options", "hint"), [
     (["--bvh", "x.bvh"], "--bvh needs --motion"), (["--amc-rate", "60"], "--amc-rate needs --motion"),
     ([], "--sex female or --sex male"), (["--motion", "none.bvh"], "none.bvh"),
-    (["--motion", "walk.c3d"], ".bvh and .amc")])
+    (["--motion", "walk.c3d"], ".bvh and .amc"),
+    (["--motion", "walk.bvh", "--language", "en"], "--language does not go with --motion"),
+    (["--motion", "walk.bvh", "--pose", "standing"], "--pose does not go with --motion"),
+    (["--motion", "walk.bvh", "--body-id", "x"], "--body-id does not go with --motion"),
+    (["--motion", "walk.bvh", "--asf", "x.asf"], "--asf is for .amc files"),
+    (["--motion", "walk.BVH", "--amc-rate", "60"], "--amc-rate is for .amc files"),
+    (["--motion", "walk.amc", "--unit", "1"], "--unit is for .bvh files")])
 def test_wrong_options_are_told(options: list[str], hint: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["body", *options]) == 1
     assert hint in capsys.readouterr().err
