@@ -290,3 +290,9 @@ def test_empty_texts_are_wrong_usage(command: str, capsys: pytest.CaptureFixture
             main([*words.split(), f"--{option}", ""])
         assert end.value.code == 2
         assert f"argument --{option}: is empty" in capsys.readouterr().err
+
+
+def test_help_tells_that_a_model_may_be_a_path(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["body", "--help"])
+    assert "or a path that ends in .yaml" in " ".join(capsys.readouterr().out.split())

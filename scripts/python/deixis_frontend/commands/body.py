@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     size.add_argument("--percentile", type=_percentile, metavar="P",
                       help="instead: P %% of that sex are no taller (default: 50)")
     parser.add_argument("--model", type=name, metavar="NAME", default="whole_body_detailed",
-                        help="file of config/body_models (default: %(default)s)")
+                        help="file of config/body_models, or a path that ends in .yaml (default: %(default)s)")
     parser.add_argument("--joint", type=name, metavar="NAME",
                         help="tell the limits of this joint only; in any language")
     parser.add_argument("--measure", type=name, metavar="NAME", help="tell this measure only; in any language")
