@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 
@@ -15,6 +16,23 @@ namespace fs = std::filesystem;
   throw FileError(file.string() + ": cannot be written: " + why);
 }
 
+/// While it lives, requests to end wait: a program that ended in between would leave a part.
+class EndDelayed {
+ public:
+  EndDelayed() {
+    sigset_t ends;
+    sigemptyset(&ends);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ends, signal);
+    pthread_sigmask(SIG_BLOCK, &ends, &before_);
+  }
+  ~EndDelayed() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  EndDelayed(const EndDelayed&) = delete;
+  EndDelayed& operator=(const EndDelayed&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
 }  // namespace
 
 void WriteWhole(const fs::path& file, const std::string& bytes) {
@@ -26,6 +44,7 @@ void WriteWhole(const fs::path& file, const std::string& bytes) {
   }
   const fs::path final = fs::weakly_canonical(file, error);
   if (error) Refuse(file, error.message());
+  const EndDelayed until_it_is_whole;
   const fs::path unfinished = final.string() + "." + std::to_string(getpid()) + ".part";
   std::ofstream out(unfinished, std::ios::binary);
   if (!out) Refuse(file, std::strerror(errno));

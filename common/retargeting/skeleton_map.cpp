@@ -82,6 +82,9 @@ void SkeletonMap::Validate() const {
   config::Faults faults;
   faults.Require(!name.empty(), "name", "must not be empty");
   faults.Require(!limbs.empty(), "limbs", "must name a limb");
+  const bool has_sides = std::any_of(
+      limbs.begin(), limbs.end(), [](const LimbSource& limb) { return limb.side == Sides::kBoth; });
+  faults.Require(!has_sides || right != left, "left", "must not be the same as 'right'");
   std::set<std::string> seen;
   for (std::size_t i = 0; i < limbs.size(); ++i) {
     const bool is_once = limbs[i].side == Sides::kOnce;
@@ -91,14 +94,6 @@ void SkeletonMap::Validate() const {
                      "'" + limb + "' is there already");
     }
   }
-  faults.ThrowIfAny();
-}
-
-void SkeletonMap::Validate() const {
-  config::Faults faults;
-  const bool has_sides = std::any_of(
-      limbs.begin(), limbs.end(), [](const LimbSource& limb) { return limb.side == Sides::kBoth; });
-  faults.Require(!has_sides || right != left, "left", "must not be the same as 'right'");
   faults.ThrowIfAny();
 }
 

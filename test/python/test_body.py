@@ -296,3 +296,9 @@ def test_one_angle_takes_one_value(capsys: pytest.CaptureFixture[str]) -> None:
     twice = ["--angle", "left_lower_arm.flexion=10", "--angle", "left_lower_arm.flexion=20"]
     assert main([*PERSON, *twice]) != 0
     assert "left_lower_arm.flexion is given twice" in capsys.readouterr().err
+
+
+def test_help_tells_that_a_model_may_be_a_path(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["body", "--help"])
+    assert "or a path that ends in .yaml" in " ".join(capsys.readouterr().out.split())

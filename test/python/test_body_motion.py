@@ -107,7 +107,13 @@ def test_a_broken_motion_is_told_by_file_and_line(text: str, hint: str, tmp_path
 @pytest.mark.parametrize(("options", "hint"), [
     (["--bvh", "x.bvh"], "--bvh needs --motion"), (["--amc-rate", "60"], "--amc-rate needs --motion"),
     ([], "--sex female or --sex male"), (["--motion", "none.bvh"], "none.bvh"),
-    (["--motion", "walk.c3d"], ".bvh and .amc")])
+    (["--motion", "walk.c3d"], ".bvh and .amc"),
+    (["--motion", "walk.bvh", "--language", "en"], "--language does not go with --motion"),
+    (["--motion", "walk.bvh", "--pose", "standing"], "--pose does not go with --motion"),
+    (["--motion", "walk.bvh", "--body-id", "x"], "--body-id does not go with --motion"),
+    (["--motion", "walk.bvh", "--asf", "x.asf"], "--asf is for .amc files"),
+    (["--motion", "walk.BVH", "--amc-rate", "60"], "--amc-rate is for .amc files"),
+    (["--motion", "walk.amc", "--unit", "1"], "--unit is for .bvh files")])
 def test_wrong_options_are_told(options: list[str], hint: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["body", *options]) == 1
     assert hint in capsys.readouterr().err
@@ -192,8 +198,17 @@ def test_a_pipe_as_bvh_stays_a_pipe(tmp_path: Path, capsys: pytest.CaptureFixtur
     write_bvh(tmp_path / "in.bvh", bends(3))
     os.mkfifo(tmp_path / "pipe")
     assert main(["body", "--motion", str(tmp_path / "in.bvh"), "--bvh", str(tmp_path / "pipe"), "--force"]) == 1
-    assert "is no regular file" in capsys.readouterr().err
+    assert "is a pipe: name a file" in capsys.readouterr().err
     assert (tmp_path / "pipe").is_fifo()
+
+
+@pytest.mark.parametrize("command", ["motion --json", "motion --write-speeds", "body --json"])
+def test_evaluations_refuse_pipes_before_the_work(command: str, tmp_path: Path,
+                                                  capsys: pytest.CaptureFixture[str]) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    what, option = command.split()
+    assert main(["evaluate", what, "--data", str(tmp_path), option, str(tmp_path / "pipe")]) == 1
+    assert f"{option} {tmp_path / 'pipe'} is a pipe" in capsys.readouterr().err
 
 
 @pytest.mark.skipif(not Path("/dev/full").is_char_device(), reason="no /dev/full here")

@@ -13,6 +13,8 @@ def require_file(path: Path, option: str) -> None:
     """Raises UserError when no file can be written at `path`; makes the folder that it lies in."""
     if _exists(path, option) and path.is_dir():
         raise UserError(f"{option} {path} is a folder: name a file")
+    if path.resolve().is_fifo():  # Opening it waits for a reader, for ever if need be.
+        raise UserError(f"{option} {path} is a pipe: name a file")
     _require_writable(path.parent, path, option)
 
 

@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 
 #include "test/support/temporary_folder.h"
@@ -56,6 +59,20 @@ TEST(WholeFile, LeavesTheOldOneWhenItCannotBeWritten) {
   EXPECT_THAT(FaultOf(folder / "taken"), HasSubstr("it is a folder"));
   EXPECT_THAT(FaultOf(folder / "none" / "file"), HasSubstr("none/file: cannot be written"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);  // No part is left.
+}
+
+TEST(WholeFile, LeavesNoPartWhenItIsEnded) {
+  const test::TemporaryFolder folder;
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string bytes(std::size_t{1} << 24, 'x');
+    for (;;) WriteWhole(folder.path() / "file", bytes);
+  }
+  while (!fs::exists(folder.path() / "file")) usleep(1000);
+  usleep(20000);
+  kill(child, SIGTERM);
+  waitpid(child, nullptr, 0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
 }  // namespace

@@ -29,22 +29,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     size.add_argument("--percentile", type=_percentile, metavar="P",
                       help="instead: P %% of that sex are no taller (default: 50)")
     parser.add_argument("--model", type=name, metavar="NAME", default="whole_body_detailed",
-                        help="file of config/body_models (default: %(default)s)")
+                        help="file of config/body_models, or a path that ends in .yaml (default: %(default)s)")
     parser.add_argument("--joint", type=name, metavar="NAME",
                         help="tell the limits of this joint only; in any language")
     parser.add_argument("--measure", type=name, metavar="NAME", help="tell this measure only; in any language")
-    parser.add_argument("--language", choices=("en", "de", "la"), default="en",
-                        help="of the names (default: %(default)s)")
+    parser.add_argument("--language", choices=("en", "de", "la"),
+                        help="of the names (default: en)")
     parser.add_argument("--json", action="store_true", help="print JSON, with more in it")
-    parser.add_argument("--pose", choices=("standing", "rest"), default="standing",
-                        help="how the body is drawn and meshed (default: %(default)s)")
+    parser.add_argument("--pose", choices=("standing", "rest"),
+                        help="how the body is drawn and meshed (default: standing)")
     parser.add_argument("--angle", action="append", default=[], metavar="LIMB.ANGLE=DEGREES",
                         help="then one angle of it, as right_lower_arm.flexion=90; again for more")
     parser.add_argument("--png", type=file_path, metavar="FILE",
                         help="draw it, front and side, with the ranges of its joints")
     parser.add_argument("--urdf", type=file_path, metavar="FILE", help="write the model as URDF")
-    parser.add_argument("--body-id", type=name, default="default", metavar="ID",
-                        help="ends all names of the URDF, as in REP 155 (default: %(default)s)")
+    parser.add_argument("--body-id", type=name, metavar="ID",
+                        help="ends all names of the URDF, as in REP 155 (default: default)")
     parser.add_argument("--ply", type=file_path, metavar="FILE", help="write the surface as PLY, metres")
     parser.add_argument("--force", action="store_true", help="replace files that are there")
     body_motion.add_arguments(parser)
@@ -76,6 +76,9 @@ def _refuse_beside_motion(arguments: argparse.Namespace) -> None:
     for option in ("sex", "stature", "percentile", "joint", "measure", *_FILES):
         if getattr(arguments, option) is not None:
             raise UserError(f"--{option} does not go with --motion, whose person has the file's sizes")
+    for option in ("language", "pose", "body_id"):
+        if getattr(arguments, option) is not None:
+            raise UserError(f"--{option.replace('_', '-')} does not go with --motion")
     if arguments.angle:
         raise UserError("--angle does not go with --motion, whose poses are the file's")
 

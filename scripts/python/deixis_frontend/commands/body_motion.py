@@ -14,6 +14,8 @@ from deixis_frontend.programs import run_program
 from deixis_frontend.text_options import file_path
 from deixis_frontend.text_table import lines
 
+# Options that say how one kind of file is read, and the other kind.
+_MEANT_FOR = {"asf": (".amc", ".bvh"), "amc_rate": (".amc", ".bvh"), "unit": (".bvh", ".amc")}
 _ONLY_WITH_MOTION = ("asf", "amc_rate", "unit", "bvh")
 
 
@@ -21,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which motion, how it is to be read, and where its poses go."""
     group = parser.add_argument_group("recorded motion")
     group.add_argument("--motion", type=file_path, metavar="FILE",
-                       help="read a .bvh file, or .amc with its .asf, into poses of the model, scaled to that person")
+                       help="read a .bvh file, or .amc with its .asf, into poses of the model; the person has the sizes of the file")
     group.add_argument("--asf", type=file_path, metavar="FILE",
                        help="skeleton of an .amc file (default: the one beside it whose name its own begins with)")
     group.add_argument("--amc-rate", type=above_zero, metavar="HZ",
@@ -32,10 +34,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def check(arguments: argparse.Namespace) -> None:
-    """Raises UserError for options that need --motion."""
+    """Raises UserError for options that need --motion, or another kind of it."""
     for option in _ONLY_WITH_MOTION:
         if getattr(arguments, option) is not None and arguments.motion is None:
             raise UserError(f"--{option.replace('_', '-')} needs --motion FILE")
+    for option, (kind, other) in _MEANT_FOR.items():
+        if getattr(arguments, option) is not None and arguments.motion.suffix.lower() == other:
+            raise UserError(f"--{option.replace('_', '-')} is for {kind} files: {arguments.motion} is none")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -50,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.allowances_of:
         options += [f"--allowances-of={arguments.allowances_of}"]
     if arguments.write_speeds is not None:
-        output_files.require_file(arguments.write_speeds, "--write-speeds")
+        output_files.require_outputs({"--write-speeds": arguments.write_speeds}, {}, may_replace=True)
         options += [f"--write-speeds={arguments.write_speeds.absolute()}"]
     text = run_program(layout.find(), "deixis-evaluate-motion", *options)
     if arguments.write_speeds is not None:
