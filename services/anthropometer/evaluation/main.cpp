@@ -63,18 +63,19 @@ void Write(const anthropometry::Populations& populations, const fs::path& file) 
   if (!out.flush()) throw config::ConfigError(file.string() + ": cannot be written");
 }
 
-void Print(const PopulationScore& score) {
+void Print(const PopulationScore& score, const std::vector<std::string>& given) {
   std::printf("measure,median_mm,p90_mm,p95_mm,stated_spread_mm,bias_mm,within_50,within_90\n");
   for (const PredictionScore& row : score.predictions) {
     std::printf("%s,%.1f,%.1f,%.1f,%.1f,%.1f,%.3f,%.3f\n", row.measure.c_str(), row.median_mm,
                 row.p90_mm, row.p95_mm, row.stated_spread_mm, row.bias_mm, row.share_within_50,
                 row.share_within_90);
   }
-  std::printf(
-      "\npeople,accuracy,sure_share,sure_accuracy,calibration_error,brier\n%d,%.4f,%.4f,%.4f,%.4f,%"
-      ".4f\n",
-      score.people, score.sex.accuracy, score.sex.sure_share, score.sex.sure_accuracy,
-      score.sex.calibration_error, score.sex.brier);
+  std::string names;
+  for (const std::string& name : given) names += (names.empty() ? "" : ";") + name;
+  std::printf("\npeople,accuracy,sure_share,sure_accuracy,calibration_error,brier,given\n");
+  std::printf("%d,%.4f,%.4f,%.4f,%.4f,%.4f,%s\n", score.people, score.sex.accuracy,
+              score.sex.sure_share, score.sex.sure_accuracy, score.sex.calibration_error,
+              score.sex.brier, names.c_str());
 }
 
 /// The abbreviations of measures that are named in any language.
@@ -110,8 +111,9 @@ void Run(const Arguments& arguments) {
   }
   const auto populations =
       anthropometry::Populations::Load(config::FindConfig("kinematics/population.yaml"));
-  Print(Score(populations, measures, surveys, Half::kEven,
-              GivenOf(arguments.given, measures, populations), 0.001 * arguments.error_mm));
+  const auto given = GivenOf(arguments.given, measures, populations);
+  Print(Score(populations, measures, surveys, Half::kEven, given, 0.001 * arguments.error_mm),
+        given);
 }
 
 }  // namespace

@@ -50,11 +50,10 @@ def _measure(arguments: argparse.Namespace, given: str) -> dict[str, Any]:
     known = ["--given", given] if given else []
     report = parse(run_program(layout.find(), "deixis-evaluate-body", "--survey", str(arguments.data),
                                "--error", str(arguments.error), *known))
-    names = given.split(",") if given else []
-    inferred = [row for row in report["measures"] if row["measure"] not in names]
+    inferred = [row for row in report["measures"] if row["measure"] not in report["given"]]
     overall = {key: mean(row[key] for row in inferred)
                for key in ("median_mm", "p90_mm", "within_50", "within_90")} if inferred else {}
-    return {"given": names, **report, "inferred": overall}
+    return {**report, "inferred": overall}
 
 
 def _show(report: dict[str, Any], error_mm: float) -> None:
@@ -79,7 +78,9 @@ def parse(text: str) -> dict[str, Any]:
     """The program's tables: measures, a blank line, then the people and their sex."""
     measures, _, people = text.partition("\n\n")
     [last] = csv.DictReader(io.StringIO(people))
+    given = last.pop("given")
     facts = {key: float(value) for key, value in last.items()}
     rows = [{key: value if key == "measure" else float(value) for key, value in row.items()}
             for row in csv.DictReader(io.StringIO(measures))]
-    return {"people": int(facts.pop("people")), "measures": rows, "sex": facts}
+    return {"given": given.split(";") if given else [], "people": int(facts.pop("people")),
+            "measures": rows, "sex": facts}
