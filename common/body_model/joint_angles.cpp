@@ -12,15 +12,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// The rotation vector without twist that takes z to `direction`, a unit vector.
-Vector3d SwingTo(const Vector3d& direction) {
-  const Vector3d across(-direction.y(), direction.x(), 0.0);  // z x direction
-  const double sine = across.norm();
-  const double angle = std::atan2(sine, direction.z());
-  if (sine > 1e-12) return across * (angle / sine);
-  return direction.z() > 0.0 ? Vector3d::Zero().eval() : Vector3d(M_PI, 0.0, 0.0);
-}
-
 /// The angle about `axis` that takes z nearest to `direction`.
 double HingeTo(const Vector3d& axis, const Vector3d& direction) {
   const Vector3d z = Vector3d::UnitZ() - axis.z() * axis;
@@ -29,11 +20,6 @@ double HingeTo(const Vector3d& axis, const Vector3d& direction) {
 }
 
 bool IsAlongZ(const Vector3d& axis) { return std::abs(axis.z()) > 1.0 - 1e-9; }
-
-/// The angle about z by which `rotation` turns x, when z stays.
-double TwistOf(const Matrix3d& rotation) {
-  return std::atan2(rotation(1, 0) - rotation(0, 1), rotation(0, 0) + rotation(1, 1));
-}
 
 Matrix3d RootFromParent(const BodyModel& model, int parent, const BodyPose& pose) {
   Kinematics kinematics(model);
@@ -44,6 +30,18 @@ Matrix3d RootFromParent(const BodyModel& model, int parent, const BodyPose& pose
 }
 
 }  // namespace
+
+Vector3d SwingTo(const Vector3d& direction) {
+  const Vector3d across(-direction.y(), direction.x(), 0.0);  // z x direction
+  const double sine = across.norm();
+  const double angle = std::atan2(sine, direction.z());
+  if (sine > 1e-12) return across * (angle / sine);
+  return direction.z() > 0.0 ? Vector3d::Zero().eval() : Vector3d(M_PI, 0.0, 0.0);
+}
+
+double TwistOf(const Matrix3d& rotation) {
+  return std::atan2(rotation(1, 0) - rotation(0, 1), rotation(0, 0) + rotation(1, 1));
+}
 
 VectorXd JointAngles(const Limb& limb, const Matrix3d& parent_from_limb) {
   VectorXd angles = VectorXd::Zero(static_cast<Eigen::Index>(limb.dofs.size()));

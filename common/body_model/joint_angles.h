@@ -5,6 +5,12 @@
 
 namespace deixis::body_model {
 
+/// The rotation vector without twist that takes z to `direction`, a unit vector.
+Eigen::Vector3d SwingTo(const Eigen::Vector3d& direction);
+
+/// The angle about z by which `rotation` turns x, when z stays.
+double TwistOf(const Eigen::Matrix3d& rotation);
+
 /// The angles of a limb's joint, in the order of its dofs, with which its orientation in its parent
 /// comes to `parent_from_limb`, a rotation matrix: exactly for a ball joint, else so that its z
 /// axis points as nearly there as the joint can and, of the rest, its twist follows. Bounds do not

@@ -5,12 +5,16 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/body_model/joint_angles.h"
 #include "common/body_model/kinematics.h"
 #include "common/config/config.h"
 
 namespace deixis::range_of_motion {
 namespace {
 
+using body_model::RotationFrom;
+using body_model::SwingTo;
+using body_model::TwistOf;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -41,15 +45,6 @@ double AllowedBeyond(const JointPlan& plan, const std::string& motion, Limits li
     if (allowance.motion == motion) return allowance.degrees * kRadiansPerDegree;
   }
   return 0.0;
-}
-
-/// The smallest rotation that takes z to `direction`, a unit vector.
-Matrix3d SwingTo(const Vector3d& direction) {
-  return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction).toRotationMatrix();
-}
-
-double TwistOf(const Matrix3d& rotation) {
-  return std::atan2(rotation(1, 0) - rotation(0, 1), rotation(0, 0) + rotation(1, 1));
 }
 
 /// Rotation angles about x, y, z of Rx Ry Rz or Ry Rx Rz.
@@ -106,7 +101,7 @@ AnatomicalJoint::AnatomicalJoint(const JointPlan& plan, BodySide side,
 
 void AnatomicalJoint::BuildReach(const ReachPlan& plan, const std::vector<Bound>& by_knot) {
   const Vector3d rest = parent_from_neutral_.transpose() * Mirrored(plan.rest_z, side_);
-  parent_from_rest_ = parent_from_neutral_ * SwingTo(rest.normalized());
+  parent_from_rest_ = parent_from_neutral_ * RotationFrom(SwingTo(rest.normalized()));
   std::vector<ReachCone::Knot> knots;
   for (std::size_t i = 0; i < by_knot.size(); ++i) {
     Vector3d towards = parent_from_neutral_.transpose() * Mirrored(plan.knots[i].towards, side_);
@@ -137,7 +132,8 @@ AnatomicalAngles AnatomicalJoint::Measure(const Matrix3d& parent_from_limb) cons
     angles[0] = std::atan2(std::hypot(z.x(), z.y()), z.z());
     angles[1] = std::atan2(outward, z.x());
     const Matrix3d rest_from_limb = parent_from_rest_.transpose() * parent_from_limb;
-    const Matrix3d twist = SwingTo(rest_from_limb.col(2)).transpose() * rest_from_limb;
+    const Matrix3d twist =
+        RotationFrom(SwingTo(rest_from_limb.col(2))).transpose() * rest_from_limb;
     if (!axes_.empty()) angles[2] = axes_[0].sign * TwistOf(twist);
     return angles;
   }
@@ -160,13 +156,13 @@ Matrix3d AnatomicalJoint::Orientation(const AnatomicalAngles& angles) const {
     const Vector3d in_rest =
         parent_from_rest_.transpose() * (parent_from_neutral_ * DirectionOf(angles));
     const double twist = axes_.empty() ? 0.0 : axes_[0].sign * angles[2];
-    return parent_from_rest_ * SwingTo(in_rest) *
-           body_model::RotationFrom(twist * Vector3d::UnitZ());
+    return parent_from_rest_ * RotationFrom(SwingTo(in_rest)) *
+           RotationFrom(twist * Vector3d::UnitZ());
   }
   Matrix3d rotation = parent_from_neutral_;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double angle = axes_[i].sign * angles[static_cast<Eigen::Index>(i)];
-    rotation = rotation * body_model::RotationFrom(angle * Vector3d::Unit(axes_[i].coordinate));
+    rotation = rotation * RotationFrom(angle * Vector3d::Unit(axes_[i].coordinate));
   }
   return rotation;
 }

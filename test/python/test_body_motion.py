@@ -211,7 +211,6 @@ def test_evaluations_refuse_pipes_before_the_work(command: str, tmp_path: Path,
     assert f"{option} {tmp_path / 'pipe'} is a pipe" in capsys.readouterr().err
 
 
-@pytest.mark.skipif(not Path("/dev/full").is_char_device(), reason="no /dev/full here")
 def test_a_report_that_finds_no_room_is_an_error(tmp_path: Path) -> None:
     write_bvh(tmp_path / "in.bvh", bends(3))
     for program, options in (("deixis-body", ["--sex=male"]), ("deixis-retarget", [f"--motion={tmp_path / 'in.bvh'}"])):
