@@ -25,4 +25,7 @@ struct PeopleRegions {
   std::optional<body_model::Floor> floor;  ///< In the camera's optical frame.
 };
 
+/// Placeholder.
+PeopleRegions FindPeople(const DepthView& view, std::optional<body_model::Floor> floor);
+
 }  // namespace deixis::pose_fitter

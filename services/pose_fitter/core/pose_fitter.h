@@ -1,0 +1,102 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/body_model/body_plan.h"
+#include "common/body_model/tracked_body.h"
+#include "common/geometry/stereo_calibration.h"
+#include "common/images/depth_image.h"
+#include "services/pose_fitter/core/depth/depth_view.h"
+#include "services/pose_fitter/core/fitting/body_evidence.h"
+#include "services/pose_fitter/core/fitting/body_fitter.h"
+#include "services/pose_fitter/core/people/people_finder.h"
+
+namespace deixis::pose_fitter {
+
+struct StartConfig {
+  int iterations = 20;  ///< Of the fit of each start pose.
+  double first_scale_m = 0.2;
+  double first_reach_m = 0.5;
+  double worst_score = 0.8;  ///< Fits that are worse are nobody.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("iterations", iterations);
+    v("first_scale_m", first_scale_m);
+    v("first_reach_m", first_reach_m);
+    v("worst_score", worst_score);
+  }
+  void Validate() const;  ///< Throws FaultsFound.
+};
+
+struct PoseFitterConfig {
+  std::string body_model = "body_models/whole_body_detailed.yaml";  ///< The tree of limbs.
+  double stature_m = 0.0;         ///< Of the people who come; 0 = not known.
+  double stature_sigma_m = 0.01;  ///< Its spread.
+  double velocity_share = 0.6;    ///< Of the motion that goes on from image to image.
+  double forget_after_s = 1.0;    ///< Time after which a person who is not seen is gone.
+  double gate_speed_m_per_s =
+      1.0;  ///< Widens the gate of the evidence with the time between images.
+  double position_sigma_m = 0.012;  ///< Spread of joint places that the fit does not know of.
+  double covariance_factor = 1.0;   ///< Times the covariance that the fit believes in.
+  StartConfig start;
+  BodyEvidenceConfig evidence;
+  BodyFitterConfig fit;
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("body_model", body_model);
+    v("stature_m", stature_m);
+    v("stature_sigma_m", stature_sigma_m);
+    v("velocity_share", velocity_share);
+    v("forget_after_s", forget_after_s);
+    v("gate_speed_m_per_s", gate_speed_m_per_s);
+    v("position_sigma_m", position_sigma_m);
+    v("covariance_factor", covariance_factor);
+    v("start", start);
+    v("evidence", evidence);
+    v("fit", fit);
+  }
+  void Validate() const;  ///< Throws FaultsFound.
+};
+
+/// Follows the people in the images of one depth camera.
+class PoseFitter {
+ public:
+  /// Throws ConfigError when the body model cannot be had.
+  explicit PoseFitter(const PoseFitterConfig& config);
+  ~PoseFitter();
+
+  /// Everybody in the next image. Throws std::logic_error when the image is none (not CV_16UC1,
+  /// empty).
+  const body_model::BodyPoses& Track(const images::DepthImage& image,
+                                     const geometry::StereoCalibration& calibration);
+
+  /// Models that bodies of the last result are of.
+  std::vector<body_model::PersonModel> Models() const;
+
+ private:
+  struct Person;
+  void Follow(Person& person, double seconds);
+  void Take(const Person& person);
+  void FindNew();
+  std::unique_ptr<Person> Start(const PersonRegion& region);
+  void Report(const images::DepthImage& image);
+
+  PoseFitterConfig config_;
+  body_model::BodyModel model_;
+  double stature_m_ = 0.0;
+  DepthView view_;
+  std::optional<body_model::Floor> floor_;
+  PeopleRegions regions_;
+  std::vector<std::uint8_t> taken_;
+  std::vector<std::unique_ptr<Person>> people_;
+  BodyEvidence start_evidence_;
+  std::optional<Timestamp> last_time_;
+  int next_id_ = 0;
+  body_model::BodyPoses poses_;
+};
+
+}  // namespace deixis::pose_fitter
