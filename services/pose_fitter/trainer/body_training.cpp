@@ -26,11 +26,11 @@ constexpr double kFirstReach_m = 0.08, kReach_m = 0.05;
 
 /// A joint that lies where the limb before it ends has the length of that limb.
 const std::map<std::string, std::string> kSameAs = {
-    {"abdomen.origin.z", "pelvis.length"},    {"chest.origin.z", "abdomen.length"},
-    {"neck_base.origin.z", "chest.length"},   {"head.origin.z", "neck.length"},
-    {"skull_cap.origin.z", "head.length"},    {"upper_arm.origin.z", "clavicle.length"},
+    {"abdomen.origin.z", "pelvis.length"},   {"chest.origin.z", "abdomen.length"},
+    {"neck_base.origin.z", "chest.length"},  {"head.origin.z", "neck.length"},
+    {"skull_cap.origin.z", "head.length"},   {"upper_arm.origin.z", "clavicle.length"},
     {"deltoid.origin.z", "clavicle.length"}, {"lower_arm.origin.z", "upper_arm.length"},
-    {"hand.origin.z", "lower_arm.length"},    {"shank.origin.z", "thigh.length"},
+    {"hand.origin.z", "lower_arm.length"},   {"shank.origin.z", "thigh.length"},
     {"foot.origin.z", "shank.length"}};
 
 double Median(std::vector<double> values) {
