@@ -145,6 +145,11 @@ std::unique_ptr<PoseFitter::Person> PoseFitter::Start(const PersonRegion& region
   best->result.score = 1e9;
   for (BodyPose pose : StartPoses(model_, region, floor_)) {
     const FitResult result = fitter.Fit(start_evidence_, floor_, pose, std::nullopt, pose);
+    if (std::getenv("DBG")) {
+      double fr=0,sa=0; for (auto& l : result.limbs) { fr += l.view.free; sa += l.view.samples; }
+      const Vector3d f = pose.frame_from_root.rotation * Vector3d::UnitX();
+      fprintf(stderr, "hyp top %.2f px %d fwd %.2f %.2f %.2f score %.3f free %.3f explained %.3f\n", region.top_m, region.pixel_count, f.x(), f.y(), f.z(), result.score, fr/sa, result.explained);
+    }
     if (result.score >= best->result.score) continue;
     best->result = result;
     best->pose = pose;

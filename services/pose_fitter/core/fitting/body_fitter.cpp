@@ -294,8 +294,9 @@ FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
   FitResult result;
   const BodyPoints& points = evidence.points();
   Assign(points, config_.last_reach_m);
-  AddPoints(points, config_.last_scale_m);
+  AddPoints(points, config_.judged_scale_m);
   int explained = 0;
+  double cost = 0.0;
   for (int limb = 0; limb < model_->limb_count(); ++limb) {
     const auto k = static_cast<std::size_t>(limb);
     LimbEvidence found;
@@ -305,6 +306,7 @@ FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
     }
     found.view = outline_.Look(evidence, kinematics_, limb);
     explained += found.inlier_count;
+    cost += static_cast<double>(sums_[k].values[27]);
     result.limbs.push_back(found);
   }
   result.explained = points.count() > 0 ? static_cast<double>(explained) / points.count() : 0.0;
@@ -313,7 +315,8 @@ FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
     free += limb.view.free;
     samples += limb.view.samples;
   }
-  result.score = (1.0 - result.explained) + (samples > 0.0 ? 2.0 * free / samples : 2.0);
+  cost += points.count() - explained;
+  result.score = cost / std::max(1, points.count()) + (samples > 0.0 ? 2.0 * free / samples : 2.0);
   return result;
 }
 

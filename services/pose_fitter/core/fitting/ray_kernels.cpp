@@ -158,7 +158,7 @@ struct Meeting {
     s15 += w5 * v0, s16 += w5 * v1, s17 += w5 * v2, s18 += w5 * nx, s19 += w5 * ny, s20 += w5 * nz;
     s21 += w0 * residual, s22 += w1 * residual, s23 += w2 * residual;
     s24 += w3 * residual, s25 += w4 * residual, s26 += w5 * residual;
-    s27 += w * residual * residual, s28 += w, s29 += residual * residual;
+    s27 += 1.0F - robust, s28 += w, s29 += residual * residual;
   }
   const float sums[LimbSums::kCount] = {s0,  s1,  s2,  s3,  s4,  s5,  s6,  s7,  s8,  s9,
                                         s10, s11, s12, s13, s14, s15, s16, s17, s18, s19,
