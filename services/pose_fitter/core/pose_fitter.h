@@ -19,7 +19,9 @@ struct StartConfig {
   int iterations = 20;  ///< Of the fit of each start pose.
   double first_scale_m = 0.2;
   double first_reach_m = 0.5;
-  double worst_score = 0.8;  ///< Fits that are worse are nobody.
+  double worst_score = 0.8;   ///< Fits that are worse are nobody.
+  double facing_away = 0.04;  ///< Added to the score of who turns the back: robots are looked at.
+  double settle_s = 0.5;      ///< Time that rival poses have to prove themselves.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -27,6 +29,8 @@ struct StartConfig {
     v("first_scale_m", first_scale_m);
     v("first_reach_m", first_reach_m);
     v("worst_score", worst_score);
+    v("facing_away", facing_away);
+    v("settle_s", settle_s);
   }
   void Validate() const;  ///< Throws FaultsFound.
 };
@@ -78,8 +82,14 @@ class PoseFitter {
   std::vector<body_model::PersonModel> Models() const;
 
  private:
+  struct Hypothesis;
   struct Person;
   void Follow(Person& person, double seconds);
+  void Fit(Person& person, Hypothesis& hypothesis, const body_model::BodyPose& predicted,
+           double seconds);
+  void Choose(Person& person);
+  double FacingPenalty(const body_model::BodyPose& pose) const;
+  body_model::BodyPose Predict(const Hypothesis& hypothesis, double seconds) const;
   void Take(const Person& person);
   void FindNew();
   std::unique_ptr<Person> Start(const PersonRegion& region);

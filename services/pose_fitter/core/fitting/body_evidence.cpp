@@ -71,14 +71,18 @@ void BodyEvidenceConfig::Validate() const {
   faults.ThrowIfAny();
 }
 
-void BodyEvidence::Gather(const DepthView& view, const body_model::Kinematics& kinematics,
-                          const std::optional<body_model::Floor>& floor, const BodyMask& mask,
-                          double gate_m) {
+void BodyEvidence::Gather(const DepthView& view, body_model::Kinematics& kinematics,
+                          const std::vector<const body_model::BodyPose*>& poses,
+                          const std::optional<body_model::Floor>& floor, const BodyMask& mask) {
   view_ = &view;
   floor_ = floor;
   body_.create(view.height_px(), view.width_px(), CV_8UC1);
   body_.setTo(0);
-  MarkBody(kinematics, mask, gate_m);
+  box_ = {};
+  for (const body_model::BodyPose* pose : poses) {
+    kinematics.Update(*pose);
+    MarkBody(kinematics, mask);
+  }
   RemoveIslands();
   MeasureClearance(kinematics.proximal_m(0).z());
   TakePoints();
@@ -110,16 +114,15 @@ bool BodyEvidence::IsAboveFloor(const Vector3d& point_m) const {
   return !floor_ || floor_->normal.dot(point_m) + floor_->offset_m > config_.above_floor_m;
 }
 
-void BodyEvidence::MarkBody(const body_model::Kinematics& kinematics, const BodyMask& mask,
-                            double gate_m) {
-  box_ = {};
+void BodyEvidence::MarkBody(const body_model::Kinematics& kinematics, const BodyMask& mask) {
   for (int limb = 0; limb < kinematics.model().limb_count(); ++limb) {
-    MarkLimb(kinematics, limb, mask, gate_m);
+    MarkLimb(kinematics, limb, mask);
   }
 }
 
 void BodyEvidence::MarkLimb(const body_model::Kinematics& kinematics, int limb,
-                            const BodyMask& mask, double gate_m) {
+                            const BodyMask& mask) {
+  const double gate_m = config_.gate_m;
   const Rod rod = RodOf(kinematics, limb);
   const cv::Rect box = BoxOf(rod, gate_m, view_->camera());
   if (box.empty()) return;

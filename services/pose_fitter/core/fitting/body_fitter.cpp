@@ -143,7 +143,6 @@ FitResult BodyFitter::Fit(const BodyEvidence& evidence,
     AddLimits(pose);
     Step(pose);
   }
-  for (int i = 0; i < model_->angle_count(); ++i) pose.angles_rad[i] += 0.0;
   kinematics_.Update(pose);
   return Judge(evidence);
 }
@@ -318,11 +317,6 @@ FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
   cost += points.count() - explained;
   result.score = cost / std::max(1, points.count()) + (samples > 0.0 ? 2.0 * free / samples : 2.0);
   return result;
-}
-
-Eigen::MatrixXd BodyFitter::Covariance() const {
-  const auto size = equations_.information.rows();
-  return equations_.information.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
 }
 
 }  // namespace deixis::pose_fitter
