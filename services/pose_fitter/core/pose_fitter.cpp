@@ -65,6 +65,10 @@ void PoseFitterConfig::Validate() const {
 PoseFitter::PoseFitter(const PoseFitterConfig& config)
     : config_(config),
       model_(body_model::LoadBody(config::FindConfig(config.body_model), SizesOfPerson(config))),
+      sound_(config.sound),
+      floor_tracker_(config.floor),
+      finder_(config.people),
+      tracks_(config.tracks),
       start_evidence_(config.evidence) {
   stature_m_ = config.stature_m;
 }
@@ -74,22 +78,40 @@ PoseFitter::~PoseFitter() = default;
 const body_model::BodyPoses& PoseFitter::Track(const images::DepthImage& image,
                                                const geometry::StereoCalibration& calibration) {
   view_.Update(DepthCameraOf(calibration, image.depth_mm.size()), image.depth_mm);
+  const double time_s = 1e-6 * static_cast<double>(image.time.microseconds);
   const double seconds = last_time_ ? SecondsBetween(*last_time_, image.time) : 0.0;
-  if (last_time_ && (seconds <= 0.0 || seconds > config_.forget_after_s)) people_.clear();
+  if (last_time_ && (seconds <= 0.0 || seconds > config_.tracks.hidden_time_s)) people_.clear();
   last_time_ = image.time;
+  const auto& is_sound = sound_.Find(view_);
+  floor_ = floor_tracker_.Update(view_, is_sound, time_s);
   taken_.assign(view_.z_m().size(), 0);
   for (auto& person : people_) {
     Follow(*person, seconds);
     Take(*person);
   }
-  people_.erase(std::remove_if(people_.begin(), people_.end(),
-                               [this](const auto& person) {
-                                 return person->unseen_s > config_.forget_after_s;
-                               }),
-                people_.end());
-  if (people_.empty()) FindNew();
+  LetGo();
+  FindNew(is_sound, time_s);
+  Number(time_s);
   Report(image);
   return poses_;
+}
+
+void PoseFitter::LetGo() {
+  people_.erase(std::remove_if(people_.begin(), people_.end(),
+                               [this](const auto& person) {
+                                 return person->unseen_s > config_.tracks.hidden_time_s;
+                               }),
+                people_.end());
+}
+
+void PoseFitter::Number(double time_s) {
+  std::vector<PersonSighting> sightings;
+  for (const auto& person : people_) {
+    sightings.push_back(
+        {person->hypotheses.front().pose.frame_from_root.translation_m, person->id, true});
+  }
+  const auto& ids = tracks_.Update(sightings, time_s);
+  for (std::size_t i = 0; i < people_.size(); ++i) people_[i]->id = ids[i];
 }
 
 BodyPose PoseFitter::Predict(const Hypothesis& hypothesis, double seconds) const {
@@ -169,20 +191,30 @@ void PoseFitter::Take(const Person& person) {
   }
 }
 
-void PoseFitter::FindNew() {
-  regions_ = FindPeople(view_, floor_);
-  floor_ = regions_.floor;
-  for (const PersonRegion& region : regions_.regions) {
+void PoseFitter::FindNew(const std::vector<std::uint8_t>& is_sound, double time_s) {
+  if (last_try_s_ && time_s >= *last_try_s_ && time_s - *last_try_s_ < config_.start.again_s)
+    return;
+  last_try_s_ = time_s;
+  for (const PersonRegion& region : finder_.Find(view_, is_sound, floor_).regions) {
+    if (IsTaken(region)) continue;
     auto person = Start(region);
     if (!person) continue;
-    person->id = next_id_++;
     Take(*person);
     people_.push_back(std::move(person));
   }
 }
 
+bool PoseFitter::IsTaken(const PersonRegion& region) const {
+  const auto& labels = finder_.regions().labels;
+  int taken = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == region.label && taken_[i] != 0) ++taken;
+  }
+  return taken > config_.start.most_taken * region.pixel_count;
+}
+
 std::unique_ptr<PoseFitter::Person> PoseFitter::Start(const PersonRegion& region) {
-  start_evidence_.GatherRegion(view_, regions_.labels, region.label, floor_);
+  start_evidence_.GatherRegion(view_, finder_.regions().labels, region.label, floor_);
   PoseFitterConfig config = config_;
   config.fit.iterations = config_.start.iterations;
   config.fit.first_scale_m = config_.start.first_scale_m;
@@ -230,11 +262,12 @@ void PoseFitter::Report(const images::DepthImage& image) {
   poses_.frame = image.camera;
   poses_.source = "pose_fitter";
   poses_.floor = floor_;
-  poses_.bodies.resize(people_.size());
-  for (std::size_t i = 0; i < people_.size(); ++i) {
-    Person& person = *people_[i];
+  poses_.bodies.clear();
+  for (const auto& followed : people_) {
+    Person& person = *followed;
+    if (person.id < 0) continue;
     const Hypothesis& best = person.hypotheses.front();
-    body_model::TrackedBody& body = poses_.bodies[i];
+    body_model::TrackedBody& body = poses_.bodies.emplace_back();
     body.person_id = person.id;
     body.state =
         person.unseen_s > 0.0 ? body_model::BodyState::kLost : body_model::BodyState::kTracked;
