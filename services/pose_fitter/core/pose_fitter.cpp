@@ -131,7 +131,8 @@ void PoseFitter::Follow(Person& person, double seconds) {
   }
   std::vector<const BodyPose*> poses;
   for (const BodyPose& pose : predicted) poses.push_back(&pose);
-  person.evidence.Gather(view_, person.fitter.kinematics(), poses, floor_, {&taken_});
+  person.evidence.Gather(view_, person.fitter.kinematics(), poses, floor_, {&taken_},
+                         config_.evidence.gate_m);
   if (person.evidence.points().count() < 50) {
     person.unseen_s += seconds;
     return;
@@ -214,37 +215,58 @@ bool PoseFitter::IsTaken(const PersonRegion& region) const {
 }
 
 std::unique_ptr<PoseFitter::Person> PoseFitter::Start(const PersonRegion& region) {
-  start_evidence_.GatherRegion(view_, finder_.regions().labels, region.label, floor_);
+  const auto& labels = finder_.regions().labels;
   PoseFitterConfig config = config_;
   config.fit.iterations = config_.start.iterations;
   config.fit.first_scale_m = config_.start.first_scale_m;
   config.fit.first_reach_m = config_.start.first_reach_m;
   BodyFitter fitter(config.fit, model_);
+  auto person = std::make_unique<Person>(config_, model_);
   std::optional<Hypothesis> facing, turned;
-  for (BodyPose pose : StartPoses(model_, region, floor_)) {
-    const FitResult result = fitter.Fit(start_evidence_, floor_, pose, std::nullopt, pose);
+  const Vector3d top_m = TopOf(view_, labels, region, floor_, config_.start.head_m);
+  for (BodyPose pose : StartPoses(model_, top_m, floor_)) {
+    const BodyPose guess = pose;
+    start_evidence_.Gather(view_, fitter.kinematics(), {&guess}, floor_, {&taken_},
+                           config_.start.gate_m);
+    fitter.Fit(start_evidence_, floor_, pose, std::nullopt, pose);
+    const BodyPose coarse = pose;
+    person->evidence.Gather(view_, person->fitter.kinematics(), {&coarse}, floor_, {&taken_},
+                            config_.evidence.gate_m);
+    Hypothesis hypothesis;
+    hypothesis.result = person->fitter.Fit(person->evidence, floor_, pose, std::nullopt, pose);
+    hypothesis.information = person->fitter.information();
+    hypothesis.mean_score = hypothesis.result.score + FacingPenalty(pose);
+    hypothesis.pose = pose;
+    hypothesis.rates_rad_per_s.setZero(model_.angle_count());
+    if (std::getenv("DBG")) {
+      const auto& result = hypothesis.result;
+      double fr = 0, sa = 0;
+      for (auto& l : result.limbs) {
+        fr += l.view.free;
+        sa += l.view.samples;
+      }
+      const Vector3d f = pose.frame_from_root.rotation * Vector3d::UnitX();
+      const Vector3d t = pose.frame_from_root.translation_m;
+      fprintf(stderr,
+              "hyp region at %.1f %.1f %.1f top %.2f px %d like %.2f root %.1f %.1f %.1f fwd %.2f "
+              "%.2f %.2f score %.3f free %.3f expl %.3f\n",
+              region.centroid_m.x(), region.centroid_m.y(), region.centroid_m.z(), region.top_m,
+              region.pixel_count, region.likeness, t.x(), t.y(), t.z(), f.x(), f.y(), f.z(),
+              result.score, fr / sa, result.explained);
+    }
     const bool faces = FacingPenalty(pose) < 0.5 * config_.start.facing_away;
     std::optional<Hypothesis>& best = faces ? facing : turned;
-    const double score = result.score + FacingPenalty(pose);
-    if (best && best->mean_score <= score) continue;
-    best.emplace();
-    best->pose = pose;
-    best->result = result;
-    best->mean_score = score;
+    if (!best || hypothesis.mean_score < best->mean_score) best = hypothesis;
   }
-  auto person = std::make_unique<Person>(config_, model_);
-  for (const auto& best : {facing, turned}) {
-    if (!best || best->mean_score > config_.start.worst_score) continue;
-    Hypothesis hypothesis = *best;
-    hypothesis.result =
-        person->fitter.Fit(start_evidence_, floor_, hypothesis.pose, std::nullopt, hypothesis.pose);
-    hypothesis.information = person->fitter.information();
-    hypothesis.mean_score = hypothesis.result.score + FacingPenalty(hypothesis.pose);
-    hypothesis.rates_rad_per_s.setZero(model_.angle_count());
-    person->hypotheses.push_back(hypothesis);
+  std::vector<const BodyPose*> poses;
+  for (auto* best : {&facing, &turned}) {
+    if (!*best || (*best)->mean_score > config_.start.worst_score) continue;
+    person->hypotheses.push_back(**best);
   }
   if (person->hypotheses.empty()) return nullptr;
-  person->evidence = start_evidence_;
+  for (const Hypothesis& hypothesis : person->hypotheses) poses.push_back(&hypothesis.pose);
+  person->evidence.Gather(view_, person->fitter.kinematics(), poses, floor_, {&taken_},
+                          config_.evidence.gate_m);
   Choose(*person);
   return person;
 }

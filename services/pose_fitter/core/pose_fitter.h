@@ -25,6 +25,8 @@ struct StartConfig {
   double worst_score = 0.8;    ///< Fits that are worse are nobody.
   double facing_away = 0.04;   ///< Added to the score of who turns the back: robots are looked at.
   double settle_s = 0.5;       ///< Time that rival poses have to prove themselves.
+  double gate_m = 0.3;         ///< Pixels this near to a start pose may belong to the person.
+  double head_m = 0.25;        ///< Height of the part of a region that is taken for the head.
   double again_s = 0.3;        ///< Between two tries.
   double most_taken = 0.3;     ///< Share of a region that those who are followed may have of it.
 
@@ -36,6 +38,8 @@ struct StartConfig {
     v("worst_score", worst_score);
     v("facing_away", facing_away);
     v("settle_s", settle_s);
+    v("gate_m", gate_m);
+    v("head_m", head_m);
     v("again_s", again_s);
     v("most_taken", most_taken);
   }

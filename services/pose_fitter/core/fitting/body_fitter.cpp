@@ -309,13 +309,15 @@ FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
     result.limbs.push_back(found);
   }
   result.explained = points.count() > 0 ? static_cast<double>(explained) / points.count() : 0.0;
-  double free = 0.0, samples = 0.0;
+  double free = 0.0, hidden = 0.0, samples = 0.0;
   for (const LimbEvidence& limb : result.limbs) {
     free += limb.view.free;
+    hidden += limb.view.hidden;
     samples += limb.view.samples;
   }
   cost += points.count() - explained;
-  result.score = cost / std::max(1, points.count()) + (samples > 0.0 ? 2.0 * free / samples : 2.0);
+  result.score = cost / std::max(1, points.count()) +
+                 (samples > 0.0 ? (2.0 * free + 0.3 * hidden) / samples : 2.0);
   return result;
 }
 
