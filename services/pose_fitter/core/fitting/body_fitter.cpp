@@ -143,7 +143,6 @@ FitResult BodyFitter::Fit(const BodyEvidence& evidence,
     AddLimits(pose);
     Step(pose);
   }
-  for (int i = 0; i < model_->angle_count(); ++i) pose.angles_rad[i] += 0.0;
   kinematics_.Update(pose);
   return Judge(evidence);
 }
@@ -294,8 +293,9 @@ FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
   FitResult result;
   const BodyPoints& points = evidence.points();
   Assign(points, config_.last_reach_m);
-  AddPoints(points, config_.last_scale_m);
+  AddPoints(points, config_.judged_scale_m);
   int explained = 0;
+  double cost = 0.0;
   for (int limb = 0; limb < model_->limb_count(); ++limb) {
     const auto k = static_cast<std::size_t>(limb);
     LimbEvidence found;
@@ -305,21 +305,20 @@ FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
     }
     found.view = outline_.Look(evidence, kinematics_, limb);
     explained += found.inlier_count;
+    cost += static_cast<double>(sums_[k].values[27]);
     result.limbs.push_back(found);
   }
   result.explained = points.count() > 0 ? static_cast<double>(explained) / points.count() : 0.0;
-  double free = 0.0, samples = 0.0;
+  double free = 0.0, hidden = 0.0, samples = 0.0;
   for (const LimbEvidence& limb : result.limbs) {
     free += limb.view.free;
+    hidden += limb.view.hidden;
     samples += limb.view.samples;
   }
-  result.score = (1.0 - result.explained) + (samples > 0.0 ? 2.0 * free / samples : 2.0);
+  cost += points.count() - explained;
+  result.score = cost / std::max(1, points.count()) +
+                 (samples > 0.0 ? (2.0 * free + 0.3 * hidden) / samples : 2.0);
   return result;
-}
-
-Eigen::MatrixXd BodyFitter::Covariance() const {
-  const auto size = equations_.information.rows();
-  return equations_.information.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
 }
 
 }  // namespace deixis::pose_fitter

@@ -31,6 +31,7 @@ struct BodyFitterConfig {
   int iterations = 12;            ///< Of each fit.
   double first_scale_m = 0.10;    ///< Of the robust weights, in the first round ...
   double last_scale_m = 0.03;     ///< ... and in the last.
+  double judged_scale_m = 0.02;   ///< By which a fit is judged against others.
   double first_reach_m = 0.25;    ///< Points farther from all limbs do not count, in the first ...
   double last_reach_m = 0.10;     ///< ... and in the last round.
   double across_m = 0.012;        ///< Spread of clothes about their cylinders, one sigma.
@@ -52,6 +53,7 @@ struct BodyFitterConfig {
     v("iterations", iterations);
     v("first_scale_m", first_scale_m);
     v("last_scale_m", last_scale_m);
+    v("judged_scale_m", judged_scale_m);
     v("first_reach_m", first_reach_m);
     v("last_reach_m", last_reach_m);
     v("across_m", across_m);
@@ -94,8 +96,8 @@ class BodyFitter {
 
   const body_model::Kinematics& kinematics() const { return kinematics_; }
   body_model::Kinematics& kinematics() { return kinematics_; }
-  /// Covariance of the last fit, in the order of body_model::PointJacobian.
-  Eigen::MatrixXd Covariance() const;
+  /// Of the last fit, in the order of body_model::PointJacobian.
+  const Eigen::MatrixXd& information() const { return equations_.information; }
 
  private:
   void Assign(const BodyPoints& points, double reach_m);

@@ -1,12 +1,17 @@
 #include "services/pose_fitter/core/fitting/ray_kernels.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/kernels/kernel.h"
 
 namespace deixis::pose_fitter {
 namespace {
+
+[[gnu::always_inline]] inline float Larger(float a, float b) { return a > b ? a : b; }
+[[gnu::always_inline]] inline float Within(float value, float low, float high) {
+  const float above = value > low ? value : low;
+  return above < high ? above : high;
+}
 
 /// Where a viewing ray meets a limb, or where the limb is nearest to its point.
 struct Meeting {
@@ -16,6 +21,30 @@ struct Meeting {
   float nx, ny, nz;  // Outward normal there, in the limb's frame.
   float dx, dy, dz;  // The ray in the limb's frame, at z = 1.
 };
+
+/// A ray in the coordinates of a tapered ellipse: (u0 + t u1, v0 + t v1) from its centre, whose
+/// semi-axis along x is a0 + t a1.
+struct Taper {
+  float u0, u1, v0, v1, a0, a1, z0, dz, ka, kb;
+};
+
+struct Root {
+  float t;
+  float exists;  // 1 or 0.
+};
+
+/// Of the quadric whose ratio of semi-axes is that at the height of `t`, the root in front.
+[[gnu::always_inline]] inline Root FrontRoot(const LimbSurface& limb, const Taper& p, float t) {
+  const float height = Within(p.z0 + t * p.dz, 0.0F, limb.length_m);
+  const float k = (limb.a0_m + p.ka * height) / (limb.b0_m + p.kb * height);
+  const float k2 = k * k;
+  const float qa = p.u1 * p.u1 + k2 * p.v1 * p.v1 - p.a1 * p.a1;
+  const float qb = p.u0 * p.u1 + k2 * p.v0 * p.v1 - p.a0 * p.a1;
+  const float qc = p.u0 * p.u0 + k2 * p.v0 * p.v0 - p.a0 * p.a0;
+  const float d = qb * qb - qa * qc;
+  return {(-qb - std::sqrt(Larger(d, 0.0F))) / Larger(qa, 1e-9F),
+          (d > 0.0F) & (qa > 1e-9F) ? 1.0F : 0.0F};
+}
 
 /// Rays through side or discs: (U0 + t U1)^2 + k^2 (V0 + t V1)^2 = (A0 + t A1)^2 with k = a / b at
 /// the height of the meeting, which two rounds find.
@@ -38,46 +67,40 @@ struct Meeting {
   const float a0 = limb.a0_m + ka * o[2], a1 = ka * m.dz;
   const float across = u1 * u1 + v1 * v1 + 1e-12F;
   float t = -(u0 * u1 + v0 * v1) / across;
-  float hits = 1.0F;
-  float k = 1.0F;
-  for (int round = 0; round < 3; ++round) {
-    const float height = std::min(std::max(o[2] + t * m.dz, 0.0F), limb.length_m);
-    k = (limb.a0_m + ka * height) / (limb.b0_m + kb * height);
-    const float k2 = k * k;
-    const float qa = u1 * u1 + k2 * v1 * v1 - a1 * a1;
-    const float qb = u0 * u1 + k2 * v0 * v1 - a0 * a1;
-    const float qc = u0 * u0 + k2 * v0 * v0 - a0 * a0;
-    const float d = qb * qb - qa * qc;
-    hits = d > 0.0F && qa > 1e-9F ? 1.0F : 0.0F;
-    const float root = std::sqrt(std::max(d, 0.0F));
-    t = qa > 1e-9F ? (-qb - root) / qa : t;
-  }
+  const Taper taper{u0, u1, v0, v1, a0, a1, o[2], m.dz, ka, kb};
+  Root root{t, 0.0F};
+  root = FrontRoot(limb, taper, root.t);
+  root = FrontRoot(limb, taper, root.t);
+  root = FrontRoot(limb, taper, root.t);
+  t = root.t;
   // The disc that faces the camera, when the side is met beyond it.
   const float height = o[2] + t * m.dz;
   const bool before = height<0.0F, beyond = height> limb.length_m;
-  const float end = beyond ? limb.length_m : 0.0F;
+  // Not chosen by a condition: loads under one would keep the loop from vectors.
+  const float end = (beyond ? 1.0F : 0.0F) * limb.length_m;
   const float safe_dz = std::abs(m.dz) < 1e-6F ? 1e-6F : m.dz;
   const float td = (end - o[2]) / safe_dz;
-  const float ea = beyond ? limb.a1_m : limb.a0_m, eb = beyond ? limb.b1_m : limb.b0_m;
+  const float ea = limb.a0_m + ka * end, eb = limb.b0_m + kb * end;
   const float du = (u0 + td * u1) / ea, dv = (v0 + td * v1) / eb;
-  const bool faces = beyond ? m.dz < 0.0F : m.dz > 0.0F;
-  const bool on_disc = (before || beyond) && faces && du * du + dv * dv <= 1.0F;
-  const bool on_side = hits > 0.5F && !before && !beyond;
-  m.meets = on_side || on_disc ? 1.0F : 0.0F;
+  const float outwards = beyond ? 1.0F : -1.0F;
+  const bool faces = outwards * m.dz < 0.0F;
+  const bool on_disc = (before | beyond) & faces & (du * du + dv * dv <= 1.0F);
+  const float beside_ends = before | beyond ? 0.0F : root.exists;
+  m.meets = on_disc ? 1.0F : beside_ends;
   m.depth_m = on_disc ? td : t;
   // Where it passes by: the point itself, against the ellipse at its height.
   const float pz = o[2] + z * m.dz;
-  const float s = std::min(std::max(pz, 0.0F), limb.length_m);
-  const bool met = m.meets > 0.5F;
-  const float at = met ? m.depth_m : z;
-  const float h = met ? std::min(std::max(o[2] + at * m.dz, 0.0F), limb.length_m) : s;
+  const float s = Within(pz, 0.0F, limb.length_m);
+  // Blended, not chosen: jumps from condition to condition would keep the loop from vectors.
+  const float at = z + m.meets * (m.depth_m - z);
+  const float h = Within(o[2] + at * m.dz, 0.0F, limb.length_m);
   const float a = limb.a0_m + ka * h, b = limb.b0_m + kb * h;
   const float u = o[0] + at * m.dx - limb.x0_m - kx * h;
   const float v = o[1] + at * m.dy - limb.y0_m - ky * h;
   const float ua = u / a, vb = v / b;
   const float norm = std::sqrt(ua * ua + vb * vb) + 1e-9F;
   const float outward = std::sqrt(u * u + v * v);
-  const float beside = std::max(outward - outward / norm, 0.0F);
+  const float beside = Larger(outward - outward / norm, 0.0F);
   const float axial = pz - s;
   const float distance = std::sqrt(beside * beside + axial * axial);
   m.distance_m = distance;
@@ -92,10 +115,11 @@ struct Meeting {
   const float rim_x = beside * inverse_distance * gx / ring;
   const float rim_y = beside * inverse_distance * gy / ring;
   const float rim_z = axial * inverse_distance;
-  const bool rim = !met && std::abs(axial) > 1e-6F;
+  const float past = (1.0F - m.meets) * std::abs(axial);
+  const bool rim = past > 1e-6F;
   gx = on_disc ? 0.0F : (rim ? rim_x : gx);
   gy = on_disc ? 0.0F : (rim ? rim_y : gy);
-  gz = on_disc ? (beyond ? 1.0F : -1.0F) : (rim ? rim_z : gz);
+  gz = on_disc ? outwards : (rim ? rim_z : gz);
   const float inverse = 1.0F / (std::sqrt(gx * gx + gy * gy + gz * gz) + 1e-9F);
   m.nx = gx * inverse;
   m.ny = gy * inverse;
@@ -158,7 +182,7 @@ struct Meeting {
     s15 += w5 * v0, s16 += w5 * v1, s17 += w5 * v2, s18 += w5 * nx, s19 += w5 * ny, s20 += w5 * nz;
     s21 += w0 * residual, s22 += w1 * residual, s23 += w2 * residual;
     s24 += w3 * residual, s25 += w4 * residual, s26 += w5 * residual;
-    s27 += w * residual * residual, s28 += w, s29 += residual * residual;
+    s27 += 1.0F - robust, s28 += w, s29 += residual * residual;
   }
   const float sums[LimbSums::kCount] = {s0,  s1,  s2,  s3,  s4,  s5,  s6,  s7,  s8,  s9,
                                         s10, s11, s12, s13, s14, s15, s16, s17, s18, s19,

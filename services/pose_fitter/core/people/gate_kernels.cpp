@@ -1,0 +1,89 @@
+#include "services/pose_fitter/core/people/gate_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/kernels/kernel.h"
+
+namespace deixis::pose_fitter {
+namespace {
+
+[[gnu::always_inline]] inline int IsInside(float z, int u, std::uint8_t is_sound,
+                                           const RowGate& gate) {
+  const float lean = gate.lean + gate.lean_per_px * static_cast<float>(u);
+  const float height = z * lean + gate.camera_height_m;
+  const float lowest = gate.lowest_m + gate.noise_per_square_m * z * z * std::abs(lean);
+  return static_cast<int>(is_sound) & static_cast<int>(z > gate.near_m) &
+         static_cast<int>(z < gate.far_m) & static_cast<int>(height > lowest) &
+         static_cast<int>(height < gate.highest_m);
+}
+
+[[gnu::always_inline]] inline int IsOneSurface(float z, float other, StepLimit step) {
+  const float limit = step.fixed_m + z * (step.per_m + z * step.per_square_m);
+  return static_cast<int>(std::abs(z - other) < limit);
+}
+
+[[gnu::always_inline]] inline int IsOnTop(float height, const Tops& tops) {
+  int is_on = 0;
+  for (const float top : tops.height_m) {
+    is_on |= static_cast<int>(std::abs(height - top) < tops.tolerance_m);
+  }
+  return is_on;
+}
+
+}  // namespace
+
+DEIXIS_KERNEL void MarkLevelRow(const float* above_m, const float* row_m, const float* below_m,
+                                int width, const RowGate& gate, float lean_per_row,
+                                float pixel_slope, int distance_px, std::uint8_t* is_level) {
+  constexpr float kShare = 0.3F;  // Of what an upright surface would rise.
+  const auto rows = static_cast<float>(distance_px);
+  for (int u = 0; u < width; ++u) {
+    const float z = row_m[u];
+    const float lean = gate.lean + gate.lean_per_px * static_cast<float>(u);
+    const float limit = kShare * rows * pixel_slope * z;
+    const float up = above_m[u] * (lean - rows * lean_per_row) - z * lean;
+    const float down = below_m[u] * (lean + rows * lean_per_row) - z * lean;
+    const float lowest = gate.lowest_m + gate.noise_per_square_m * z * z * std::abs(lean);
+    const float height = z * lean + gate.camera_height_m;
+    const int is_flat =
+        (static_cast<int>(std::abs(up) < limit) & static_cast<int>(above_m[u] > z)) |
+        (static_cast<int>(std::abs(down) < limit) & static_cast<int>(below_m[u] > 0.0F) &
+         static_cast<int>(below_m[u] < z));
+    is_level[u] = static_cast<std::uint8_t>(
+        is_flat & static_cast<int>(z > gate.near_m) & static_cast<int>(z < gate.far_m) &
+        static_cast<int>(height > lowest) & static_cast<int>(height < gate.highest_m));
+  }
+}
+
+void AddLevelArea(const float* row_m, const std::uint8_t* is_level, int width, const RowGate& gate,
+                  float* area_per_cm, int bin_count) {
+  for (int u = 0; u < width; ++u) {
+    if (is_level[u] == 0) continue;
+    const float z = row_m[u];
+    const float lean = gate.lean + gate.lean_per_px * static_cast<float>(u);
+    const auto bin = static_cast<int>(100.0F * (z * lean + gate.camera_height_m));
+    if (bin < 0 || bin >= bin_count) continue;
+    area_per_cm[bin] += z * z / std::max(std::abs(lean), 0.05F);
+  }
+}
+
+DEIXIS_KERNEL void LinkRow(const float* above_m, const float* row_m, const std::uint8_t* is_sound,
+                           const std::uint8_t* is_level, const std::uint8_t* above_links, int width,
+                           const RowGate& gate, const Tops& tops, std::uint8_t* links) {
+  for (int u = 0; u < width; ++u) {
+    const float lean = gate.lean + gate.lean_per_px * static_cast<float>(u);
+    const int is_top = is_level[u] & IsOnTop(row_m[u] * lean + gate.camera_height_m, tops);
+    links[u] = static_cast<std::uint8_t>(IsInside(row_m[u], u, is_sound[u], gate) & ~is_top);
+  }
+  for (int u = 0; u < width; ++u) {
+    const int joins = links[u] & above_links[u] & IsOneSurface(row_m[u], above_m[u], gate.step);
+    links[u] = static_cast<std::uint8_t>(links[u] | (joins & 1) << 2);
+  }
+  for (int u = width - 1; u > 0; --u) {
+    const int joins = links[u] & links[u - 1] & IsOneSurface(row_m[u], row_m[u - 1], gate.step);
+    links[u] = static_cast<std::uint8_t>(links[u] | (joins & 1) << 1);
+  }
+}
+
+}  // namespace deixis::pose_fitter

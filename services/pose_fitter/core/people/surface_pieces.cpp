@@ -1,0 +1,150 @@
+#include "services/pose_fitter/core/people/surface_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace deixis::pose_fitter {
+namespace {
+
+constexpr int kSampleEvery_px = 8;  // Enough for sums: neighbours tell the same.
+constexpr int kGap_px = 6;          // Half-occluded and flying pixels between two surfaces.
+constexpr int kGapRows_px = 3;
+
+}  // namespace
+
+RoomFrame RoomFrameOf(const Eigen::Vector3d& up, double camera_height_m) {
+  // Ahead: the optical axis, or when that is nearly vertical the picture's upward direction.
+  Eigen::Vector3d ahead = Eigen::Vector3d::UnitZ() - up * up.z();
+  if (ahead.norm() < 0.1) ahead = -Eigen::Vector3d::UnitY() + up * up.y();
+  ahead.normalize();
+  RoomFrame room;
+  room.room_from_camera.row(0) = ahead.cross(up).transpose();
+  room.room_from_camera.row(1) = ahead.transpose();
+  room.room_from_camera.row(2) = up.transpose();
+  room.camera_height_m = camera_height_m;
+  return room;
+}
+
+void SurfaceShape::Add(const Eigen::Vector3d& point_m, double pixel_count, double pixel_area_m2,
+                       double depth_sigma_m) {
+  pixels += pixel_count;
+  area_m2 += pixel_count * pixel_area_m2;
+  sum_m += pixel_count * point_m;
+  square_m2.noalias() += pixel_count * point_m * point_m.transpose();
+  lowest_m = lowest_m.cwiseMin(point_m);
+  highest_m = highest_m.cwiseMax(point_m);
+  sigma_m += pixel_count * depth_sigma_m;
+}
+
+void SurfaceShape::Add(const SurfaceShape& other) {
+  pixels += other.pixels;
+  area_m2 += other.area_m2;
+  sum_m += other.sum_m;
+  square_m2 += other.square_m2;
+  lowest_m = lowest_m.cwiseMin(other.lowest_m);
+  highest_m = highest_m.cwiseMax(other.highest_m);
+  sigma_m += other.sigma_m;
+}
+
+Eigen::Matrix3d SurfaceShape::Covariance() const {
+  const Eigen::Vector3d mean = Mean();
+  return square_m2 / pixels - mean * mean.transpose();
+}
+
+SurfacePieces::SurfacePieces() : contacts_(static_cast<std::size_t>(kMost * kMost)) {
+  shapes_.reserve(kMost);
+}
+
+void SurfacePieces::Find(const DepthView& depth, const RoomFrame& room, double least_area_m2,
+                         SurfaceRuns& runs) {
+  const std::size_t capacity = runs.runs().capacity();
+  areas_.reserve(capacity);
+  order_.reserve(capacity);
+  numbers_.reserve(capacity);
+  areas_.assign(runs.runs().size(), 0.0F);
+  const auto per_pixel = static_cast<float>(1.0 / depth.camera().focal_px.prod());
+  for (const SurfaceRun& run : runs.runs()) {
+    const float z = depth.z_m((run.begin_px + run.end_px) / 2, run.row_px);
+    areas_[static_cast<std::size_t>(run.component)] +=
+        per_pixel * z * z * static_cast<float>(run.end_px - run.begin_px);
+  }
+  Choose(least_area_m2, runs);
+  Measure(depth, room, runs);
+  FindContacts(depth, runs);
+}
+
+void SurfacePieces::Choose(double least_area_m2, SurfaceRuns& runs) {
+  order_.clear();
+  for (std::size_t i = 0; i < areas_.size(); ++i) {
+    if (static_cast<double>(areas_[i]) >= least_area_m2) order_.push_back(static_cast<int>(i));
+  }
+  const auto area = [this](int i) { return areas_[static_cast<std::size_t>(i)]; };
+  std::sort(order_.begin(), order_.end(),
+            [&](int a, int b) { return area(a) != area(b) ? area(a) > area(b) : a < b; });
+  if (order_.size() > kMost) order_.resize(kMost);
+  numbers_.assign(areas_.size(), -1);
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    numbers_[static_cast<std::size_t>(order_[i])] = static_cast<int>(i);
+  }
+  for (SurfaceRun& run : runs.runs()) {
+    run.component = numbers_[static_cast<std::size_t>(run.component)];
+  }
+}
+
+void SurfacePieces::Measure(const DepthView& depth, const RoomFrame& room,
+                            const SurfaceRuns& runs) {
+  shapes_.assign(order_.size(), {});
+  const double per_pixel = 1.0 / depth.camera().focal_px.prod();
+  for (const SurfaceRun& run : runs.runs()) {
+    if (run.component < 0) continue;
+    SurfaceShape& shape = shapes_[static_cast<std::size_t>(run.component)];
+    const int length = run.end_px - run.begin_px;
+    const int samples = 1 + (length - 1) / kSampleEvery_px;
+    for (int i = 0; i < samples; ++i) {
+      const int u = run.begin_px + (2 * i + 1) * length / (2 * samples);
+      const Eigen::Vector3d point_m = depth.Point(u, run.row_px);
+      shape.Add(room.FromCamera(point_m), static_cast<double>(length) / samples,
+                per_pixel * point_m.z() * point_m.z(), depth.camera().noise.Sigma_m(point_m.z()));
+    }
+  }
+}
+
+void SurfacePieces::Touch(int a, int b, float step_m) {
+  for (Contact* contact : {&contacts_[static_cast<std::size_t>(a * kMost + b)],
+                           &contacts_[static_cast<std::size_t>(b * kMost + a)]}) {
+    ++contact->count;
+    contact->sum_step_m += std::abs(step_m);
+  }
+}
+
+void SurfacePieces::FindContacts(const DepthView& depth, const SurfaceRuns& runs) {
+  std::fill(contacts_.begin(), contacts_.end(), Contact{});
+  const auto& all = runs.runs();
+  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+    const SurfaceRun& run = all[static_cast<std::size_t>(i)];
+    if (run.component < 0) continue;
+    const float z_first = depth.z_m(run.begin_px, run.row_px);
+    for (int j = i - 1; j >= runs.RowBegin(run.row_px); --j) {
+      const SurfaceRun& left = all[static_cast<std::size_t>(j)];
+      if (run.begin_px - left.end_px > kGap_px) break;
+      if (left.component < 0) continue;
+      if (left.component != run.component) {
+        Touch(left.component, run.component, depth.z_m(left.end_px - 1, run.row_px) - z_first);
+      }
+      break;
+    }
+    const int row = run.row_px - kGapRows_px;
+    if (row < 0) continue;
+    for (int j = runs.RowBegin(row); j < runs.RowBegin(row + 1); ++j) {
+      const SurfaceRun& above = all[static_cast<std::size_t>(j)];
+      if (above.begin_px >= run.end_px) break;
+      const int begin = std::max(above.begin_px, run.begin_px);
+      const int end = std::min(above.end_px, run.end_px);
+      if (above.component < 0 || above.component == run.component || begin >= end) continue;
+      const int u = (begin + end) / 2;
+      Touch(above.component, run.component, depth.z_m(u, row) - depth.z_m(u, run.row_px));
+    }
+  }
+}
+
+}  // namespace deixis::pose_fitter
