@@ -47,7 +47,9 @@ class UnusualPerson : public testing::Test {
 
   UnusualPerson()
       : parameters_(ClothedPerson(1.72, 0.01)),
-        truth_(parameters_.Apply(Values(parameters_, Truth()))) {}
+        truth_(parameters_.Apply(Values(parameters_, Truth()))) {
+    config_.points_per_observation = 4.0;  // Here each point has its own error.
+  }
 
   ShapeParameters parameters_;
   BodyModel truth_;
