@@ -40,9 +40,11 @@ target_include_directories(deixis_flags INTERFACE "${CMAKE_SOURCE_DIR}")
 target_compile_definitions(deixis_flags INTERFACE DEIXIS_VERSION="${PROJECT_VERSION}")
 
 # Flags of files that hold hot kernels. They keep NaN and infinity meaningful, unlike -ffast-math,
-# and let the compiler vectorise; measured equal or faster than -ffast-math.
+# and let the compiler vectorise; measured equal or faster than -ffast-math. Without threaded jumps,
+# which make control flow of choices between values.
 set(DEIXIS_KERNEL_FLAGS
-  -O3 -fno-math-errno -fno-trapping-math -fno-signed-zeros -fassociative-math -freciprocal-math)
+  -O3 -fno-math-errno -fno-trapping-math -fno-signed-zeros -fassociative-math -freciprocal-math
+  -fno-thread-jumps)
 
 # Kernels in several versions, of which the processor's own runs: see common/kernels/kernel.h. Not
 # under the sanitisers, which are not ready yet when the version is chosen.

@@ -8,6 +8,7 @@
 #include "services/gesture_recogniser/gesture_recogniser_service.h"
 #include "services/hand_tracker/hand_tracker_service.h"
 #include "services/object_detector/object_detector_service.h"
+#include "services/pose_fitter/pose_fitter_service.h"
 #include "services/stereo_driver/stereo_driver_service.h"
 
 namespace deixis::offline {
@@ -19,6 +20,8 @@ using hand_tracker::HandTrackerService;
 using hand_tracker::HandTrackerServiceConfig;
 using object_detector::ObjectDetectorService;
 using object_detector::ObjectDetectorServiceConfig;
+using pose_fitter::PoseFitterService;
+using pose_fitter::PoseFitterServiceConfig;
 using stereo_driver::StereoDriverService;
 using stereo_driver::StereoDriverServiceConfig;
 
@@ -86,6 +89,12 @@ const std::vector<Entry>& Entries() {
        MakerOf<StereoDriverService, StereoDriverServiceConfig>(
            [](const StereoDriverServiceConfig& config) {
              return std::vector<std::string>{config.calibration_channel, config.stereo_channel};
+           }),
+       Hosting::kWhenNamed},
+      {"pose_fitter",
+       MakerOf<PoseFitterService, PoseFitterServiceConfig>(
+           [](const PoseFitterServiceConfig& config) {
+             return std::vector<std::string>{config.model_channel, config.poses_channel};
            }),
        Hosting::kWhenNamed},
   };

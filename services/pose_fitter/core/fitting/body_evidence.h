@@ -1,0 +1,80 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <vector>
+
+#include "common/body_model/kinematics.h"
+#include "common/body_model/tracked_body.h"
+#include "services/pose_fitter/core/depth/depth_view.h"
+#include "services/pose_fitter/core/fitting/body_points.h"
+
+namespace deixis::pose_fitter {
+
+struct BodyEvidenceConfig {
+  double gate_m = 0.12;         ///< Pixels this near to the predicted body may belong to it.
+  double above_floor_m = 0.04;  ///< Lower ones are the floor's.
+  int points = 2000;      ///< That the fit uses at most, spread evenly over the body's pixels.
+  double behind_m = 0.3;  ///< Background is what lies no further than this before the root.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("gate_m", gate_m);
+    v("above_floor_m", above_floor_m);
+    v("points", points);
+    v("behind_m", behind_m);
+  }
+  void Validate() const;  ///< Throws FaultsFound.
+};
+
+/// Which pixels may be another person's: taken out where `others` says so.
+struct BodyMask {
+  const std::vector<std::uint8_t>* taken =
+      nullptr;  ///< Not 0 = somebody else's; of the view's size.
+};
+
+/// What one depth image says of one person whose pose is about known. Takes its memory once per
+/// size of the image.
+class BodyEvidence {
+ public:
+  explicit BodyEvidence(const BodyEvidenceConfig& config) : config_(config) {}
+
+  /// Gathers it around all `poses`, of which there is at least one, by the model of `kinematics`.
+  /// `view` must outlive what is gathered.
+  void Gather(const DepthView& view, body_model::Kinematics& kinematics,
+              const std::vector<const body_model::BodyPose*>& poses,
+              const std::optional<body_model::Floor>& floor, const BodyMask& mask);
+
+  /// Gathers it from the pixels that a region holds, before any pose is known.
+  void GatherRegion(const DepthView& view, const std::vector<std::uint8_t>& labels, int label,
+                    const std::optional<body_model::Floor>& floor);
+
+  const DepthView& view() const { return *view_; }
+  const BodyPoints& points() const { return points_; }
+  int pixel_count() const { return pixel_count_; }
+  /// Whether the pixel is the body's.
+  bool IsBody(int u_px, int v_px) const { return body_.at<std::uint8_t>(v_px, u_px) != 0; }
+  /// How far a pixel that shows background is from the nearest one that may hide the body, pixels;
+  /// 0 where the body may be.
+  float Clearance_px(int u_px, int v_px) const { return clearance_px_.at<float>(v_px, u_px); }
+  const cv::Mat& body() const { return body_; }  ///< CV_8UC1, 1 = the body's.
+
+ private:
+  void MarkBody(const body_model::Kinematics& kinematics, const BodyMask& mask);
+  void MarkLimb(const body_model::Kinematics& kinematics, int limb, const BodyMask& mask);
+  void RemoveIslands();
+  void MeasureClearance(double root_z_m);
+  void TakePoints();
+  bool IsAboveFloor(const Eigen::Vector3d& point_m) const;
+
+  BodyEvidenceConfig config_;
+  const DepthView* view_ = nullptr;
+  std::optional<body_model::Floor> floor_;
+  cv::Mat body_, may_hide_, clearance_px_, labels_, stats_, centroids_;
+  cv::Rect box_;  ///< Of the body's pixels.
+  BodyPoints points_;
+  int pixel_count_ = 0;
+};
+
+}  // namespace deixis::pose_fitter

@@ -1,0 +1,322 @@
+#include "services/pose_fitter/core/fitting/body_fitter.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "common/body_model/joint_angles.h"
+#include "common/config/config.h"
+
+namespace deixis::pose_fitter {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kLargestStep = 0.4;  // Radians and metres, of one round.
+constexpr double kDamping = 1e-3;
+constexpr double kFreeAngle_rad = 9.0;  // Rest spreads from here on are none.
+
+std::string WithoutSide(const std::string& limb) {
+  for (const std::string side : {"right_", "left_"}) {
+    if (limb.rfind(side, 0) == 0) return limb.substr(side.size());
+  }
+  return limb;
+}
+
+std::vector<JointFreedom> FreedomsOf(const BodyFitterConfig& config,
+                                     const body_model::BodyModel& model) {
+  std::vector<JointFreedom> freedoms;
+  for (const auto& limb : model.limbs()) {
+    const auto found = std::find_if(
+        config.joints.begin(), config.joints.end(),
+        [&limb](const JointFreedom& joint) { return joint.limb == WithoutSide(limb.name); });
+    freedoms.push_back(found == config.joints.end() ? JointFreedom{limb.name} : *found);
+  }
+  return freedoms;
+}
+
+LimbSurface SurfaceOf(const Eigen::Isometry3d& camera_from_limb,
+                      const geometry::DegenerateCylinder& shape) {
+  LimbSurface surface{};
+  const Eigen::Matrix3d rotation = camera_from_limb.linear();
+  const Vector3d camera_m = -(rotation.transpose() * camera_from_limb.translation());
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      surface.camera_from_limb[3 * row + column] = static_cast<float>(rotation(row, column));
+    }
+    surface.camera_in_limb_m[row] = static_cast<float>(camera_m[row]);
+  }
+  surface.a0_m = static_cast<float>(shape.a0_m);
+  surface.b0_m = static_cast<float>(shape.b0_m);
+  surface.a1_m = static_cast<float>(shape.a1_m);
+  surface.b1_m = static_cast<float>(shape.b1_m);
+  surface.length_m = static_cast<float>(shape.length_m);
+  surface.x0_m = static_cast<float>(shape.centre0_m.x());
+  surface.y0_m = static_cast<float>(shape.centre0_m.y());
+  surface.x1_m = static_cast<float>(shape.centre1_m.x());
+  surface.y1_m = static_cast<float>(shape.centre1_m.y());
+  return surface;
+}
+
+RayPoints Slice(const BodyPoints& points, int first, int count) {
+  return {points.x_m.data() + first, points.y_m.data() + first, points.z_m.data() + first,
+          points.sigma_z_m.data() + first, count};
+}
+
+Vector3d RotationVector(const Eigen::Quaterniond& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  return turn.angle() * turn.axis();
+}
+
+}  // namespace
+
+void JointFreedom::Validate() const {
+  config::Faults faults;
+  faults.Require(motion_rad > 0.0, "motion_rad", "must be positive");
+  faults.Require(rest_rad > 0.0, "rest_rad", "must be positive");
+  faults.ThrowIfAny();
+}
+
+void BodyFitterConfig::Validate() const {
+  config::Faults faults;
+  faults.Require(iterations >= 1 && iterations <= 1000, "iterations", "must be 1..1000");
+  const auto positive = [&faults](double value, const char* key) {
+    faults.Require(value > 0.0, key, "must be positive");
+  };
+  positive(first_scale_m, "first_scale_m");
+  positive(last_scale_m, "last_scale_m");
+  positive(first_reach_m, "first_reach_m");
+  positive(last_reach_m, "last_reach_m");
+  positive(across_m, "across_m");
+  positive(point_weight, "point_weight");
+  positive(counted_points, "counted_points");
+  positive(root_motion_m, "root_motion_m");
+  positive(root_motion_rad, "root_motion_rad");
+  positive(motion_weight, "motion_weight");
+  positive(limit_rad, "limit_rad");
+  faults.ThrowIfAny();
+}
+
+BodyFitter::BodyFitter(const BodyFitterConfig& config, const body_model::BodyModel& model)
+    : config_(config),
+      model_(&model),
+      kinematics_(model),
+      rest_(body_model::Standing(model)),
+      freedoms_(FreedomsOf(config, model)),
+      outline_(config.outline, model),
+      limb_equations_(model.limb_count()) {
+  const auto count = static_cast<std::size_t>(model.limb_count());
+  surfaces_.resize(count);
+  ball_centres_m_.resize(count);
+  ball_radii_m_.resize(count);
+  first_of_limb_.resize(count + 1);
+  sums_.resize(count);
+}
+
+FitResult BodyFitter::Fit(const BodyEvidence& evidence,
+                          const std::optional<body_model::Floor>& floor,
+                          const body_model::BodyPose& predicted, std::optional<double> seconds,
+                          body_model::BodyPose& pose) {
+  const BodyPoints& points = evidence.points();
+  const double weight =
+      config_.point_weight * std::min(1.0, config_.counted_points / std::max(1, points.count()));
+  for (int round = 0; round < config_.iterations; ++round) {
+    const double share =
+        config_.iterations > 1 ? static_cast<double>(round) / (config_.iterations - 1) : 1.0;
+    const double scale_m =
+        config_.first_scale_m * std::pow(config_.last_scale_m / config_.first_scale_m, share);
+    const double reach_m =
+        config_.first_reach_m * std::pow(config_.last_reach_m / config_.first_reach_m, share);
+    kinematics_.Update(pose);
+    equations_.SetZero(6 + model_->angle_count());
+    limb_equations_.SetZero(kinematics_.proximal_m(0));
+    Assign(points, reach_m);
+    AddPoints(points, scale_m);
+    for (int limb = 0; limb < model_->limb_count(); ++limb) {
+      limb_equations_.Add(limb, sums_[static_cast<std::size_t>(limb)], weight);
+    }
+    outline_.AddTo(evidence, kinematics_, config_.point_weight, limb_equations_);
+    AddFloor(floor);
+    limb_equations_.AddTo(kinematics_, equations_);
+    AddPriors(pose, predicted, seconds);
+    AddLimits(pose);
+    Step(pose);
+  }
+  kinematics_.Update(pose);
+  return Judge(evidence);
+}
+
+void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
+  const auto count = static_cast<std::size_t>(points.count());
+  for (int limb = 0; limb < model_->limb_count(); ++limb) {
+    const auto k = static_cast<std::size_t>(limb);
+    const auto& shape = model_->limbs()[k].shape;
+    surfaces_[k] = SurfaceOf(kinematics_.limb(limb), shape);
+    const Vector3d middle =
+        0.5 * Vector3d(shape.centre0_m.x() + shape.centre1_m.x(),
+                       shape.centre0_m.y() + shape.centre1_m.y(), shape.length_m);
+    ball_centres_m_[k] = (kinematics_.limb(limb) * middle).cast<float>();
+    const double thick_m = std::max({shape.a0_m, shape.b0_m, shape.a1_m, shape.b1_m});
+    ball_radii_m_[k] = static_cast<float>(std::hypot(0.5 * shape.length_m, thick_m));
+  }
+  const auto across = static_cast<float>(config_.across_m);
+  const auto reach = static_cast<float>(reach_m);
+  scores_.assign(count, reach / across);
+  winners_.assign(count, -1);
+  for (const PointBlock& block : points.blocks) {
+    const RayScores scores{scores_.data() + block.first, winners_.data() + block.first};
+    for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+      const float apart = (ball_centres_m_[k] - block.centre_m).norm();
+      if (apart > ball_radii_m_[k] + block.radius_m + reach) continue;
+      ScoreLimb(surfaces_[k], static_cast<int>(k), across, Slice(points, block.first, block.count),
+                scores);
+    }
+  }
+}
+
+void BodyFitter::AddPoints(const BodyPoints& points, double scale_m) {
+  const auto limbs = static_cast<std::size_t>(model_->limb_count());
+  std::fill(first_of_limb_.begin(), first_of_limb_.end(), 0);
+  for (const int winner : winners_) {
+    if (winner >= 0) ++first_of_limb_[static_cast<std::size_t>(winner) + 1];
+  }
+  for (std::size_t k = 0; k < limbs; ++k) first_of_limb_[k + 1] += first_of_limb_[k];
+  const auto total = static_cast<std::size_t>(first_of_limb_[limbs]);
+  for (auto* values : {&sorted_.x_m, &sorted_.y_m, &sorted_.z_m, &sorted_.sigma_z_m}) {
+    values->resize(total);
+  }
+  std::vector<int> next(first_of_limb_.begin(), first_of_limb_.end() - 1);
+  for (std::size_t i = 0; i < winners_.size(); ++i) {
+    if (winners_[i] < 0) continue;
+    const auto at = static_cast<std::size_t>(next[static_cast<std::size_t>(winners_[i])]++);
+    sorted_.x_m[at] = points.x_m[i];
+    sorted_.y_m[at] = points.y_m[i];
+    sorted_.z_m[at] = points.z_m[i];
+    sorted_.sigma_z_m[at] = points.sigma_z_m[i];
+  }
+  const Eigen::Vector3f root_m = limb_equations_.root_m().cast<float>();
+  const SumSettings settings{{root_m.x(), root_m.y(), root_m.z()},
+                             static_cast<float>(scale_m),
+                             static_cast<float>(config_.across_m)};
+  for (std::size_t k = 0; k < limbs; ++k) {
+    sums_[k] = {};
+    const int count = first_of_limb_[k + 1] - first_of_limb_[k];
+    if (count > 0)
+      SumLimb(surfaces_[k], settings, Slice(sorted_, first_of_limb_[k], count), sums_[k]);
+  }
+}
+
+void BodyFitter::AddPriors(const body_model::BodyPose& pose, const body_model::BodyPose& predicted,
+                           std::optional<double> seconds) {
+  auto add = [this](int parameter, double wanted, double weight) {
+    equations_.information(parameter, parameter) += weight;
+    equations_.pull[parameter] += weight * wanted;
+  };
+  if (seconds) {
+    const double grown = std::pow(std::clamp(30.0 * *seconds, 0.3, 30.0), 1.5);
+    const auto weight = [this, grown](double sigma) {
+      return config_.motion_weight / (sigma * sigma * grown * grown);
+    };
+    const Vector3d shift =
+        predicted.frame_from_root.translation_m - pose.frame_from_root.translation_m;
+    const Vector3d turn = RotationVector(predicted.frame_from_root.rotation *
+                                         pose.frame_from_root.rotation.conjugate());
+    for (int k = 0; k < 3; ++k) {
+      add(k, shift[k], weight(config_.root_motion_m));
+      add(3 + k, turn[k], weight(config_.root_motion_rad));
+    }
+    for (int limb = 0; limb < model_->limb_count(); ++limb) {
+      const auto& freedom = freedoms_[static_cast<std::size_t>(limb)];
+      const int first = model_->first_angle(limb);
+      const auto dofs = model_->limbs()[static_cast<std::size_t>(limb)].dofs.size();
+      for (int i = first; i < first + static_cast<int>(dofs); ++i) {
+        add(6 + i, predicted.angles_rad[i] - pose.angles_rad[i], weight(freedom.motion_rad));
+      }
+    }
+  }
+  for (int limb = 0; limb < model_->limb_count(); ++limb) {
+    const auto& freedom = freedoms_[static_cast<std::size_t>(limb)];
+    if (freedom.rest_rad >= kFreeAngle_rad) continue;
+    const int first = model_->first_angle(limb);
+    const auto dofs = model_->limbs()[static_cast<std::size_t>(limb)].dofs.size();
+    for (int i = first; i < first + static_cast<int>(dofs); ++i) {
+      add(6 + i, rest_.angles_rad[i] - pose.angles_rad[i],
+          1.0 / (freedom.rest_rad * freedom.rest_rad));
+    }
+  }
+}
+
+void BodyFitter::AddLimits(const body_model::BodyPose& pose) {
+  const double weight = 1.0 / (config_.limit_rad * config_.limit_rad);
+  for (int limb = 0; limb < model_->limb_count(); ++limb) {
+    int angle = model_->first_angle(limb);
+    for (const auto& dof : model_->limbs()[static_cast<std::size_t>(limb)].dofs) {
+      const double now = pose.angles_rad[angle];
+      const double wanted = std::clamp(now, dof.angle_min_rad, dof.angle_max_rad) - now;
+      if (wanted != 0.0) {
+        equations_.information(6 + angle, 6 + angle) += weight;
+        equations_.pull[6 + angle] += weight * wanted;
+      }
+      ++angle;
+    }
+  }
+}
+
+// Nothing of the body is below the floor; it need not stand on it.
+void BodyFitter::AddFloor(const std::optional<body_model::Floor>& floor) {
+  if (!floor) return;
+  constexpr double kSigma_m = 0.02;
+  for (int limb = 0; limb < model_->limb_count(); ++limb) {
+    const Vector3d end_m = kinematics_.distal_m(limb);
+    const double above_m = floor->normal.dot(end_m) + floor->offset_m;
+    if (above_m < 0.0) {
+      limb_equations_.Pull(limb, end_m, floor->normal, -above_m, 1.0 / (kSigma_m * kSigma_m));
+    }
+  }
+}
+
+void BodyFitter::Step(body_model::BodyPose& pose) {
+  equations_.information.diagonal() *= 1.0 + kDamping;
+  Eigen::VectorXd step = equations_.information.ldlt().solve(equations_.pull);
+  const double largest = step.cwiseAbs().maxCoeff();
+  if (!std::isfinite(largest)) return;
+  if (largest > kLargestStep) step *= kLargestStep / largest;
+  pose.frame_from_root.translation_m += step.head<3>();
+  const Eigen::Matrix3d turn = body_model::RotationFrom(step.segment<3>(3));
+  pose.frame_from_root.rotation =
+      (Eigen::Quaterniond(turn) * pose.frame_from_root.rotation).normalized();
+  pose.angles_rad += step.tail(model_->angle_count());
+}
+
+FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
+  FitResult result;
+  const BodyPoints& points = evidence.points();
+  Assign(points, config_.last_reach_m);
+  AddPoints(points, config_.judged_scale_m);
+  int explained = 0;
+  double cost = 0.0;
+  for (int limb = 0; limb < model_->limb_count(); ++limb) {
+    const auto k = static_cast<std::size_t>(limb);
+    LimbEvidence found;
+    found.inlier_count = first_of_limb_[k + 1] - first_of_limb_[k];
+    if (found.inlier_count > 0) {
+      found.residual_m = std::sqrt(static_cast<double>(sums_[k].values[29]) / found.inlier_count);
+    }
+    found.view = outline_.Look(evidence, kinematics_, limb);
+    explained += found.inlier_count;
+    cost += static_cast<double>(sums_[k].values[27]);
+    result.limbs.push_back(found);
+  }
+  result.explained = points.count() > 0 ? static_cast<double>(explained) / points.count() : 0.0;
+  double free = 0.0, samples = 0.0;
+  for (const LimbEvidence& limb : result.limbs) {
+    free += limb.view.free;
+    samples += limb.view.samples;
+  }
+  cost += points.count() - explained;
+  result.score = cost / std::max(1, points.count()) + (samples > 0.0 ? 2.0 * free / samples : 2.0);
+  return result;
+}
+
+}  // namespace deixis::pose_fitter

@@ -1,0 +1,130 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/body_model/body_model.h"
+#include "common/body_model/kinematics.h"
+#include "services/pose_fitter/core/fitting/body_evidence.h"
+#include "services/pose_fitter/core/fitting/limb_equations.h"
+#include "services/pose_fitter/core/fitting/outline_term.h"
+
+namespace deixis::pose_fitter {
+
+/// How freely the joint of a limb moves.
+struct JointFreedom {
+  std::string limb;         ///< Name without its side.
+  double motion_rad = 0.2;  ///< Change that a thirtieth of a second brings beside the prediction.
+  double rest_rad = 10.0;   ///< Spread about the upright stance; 10 = none to speak of.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("limb", limb);
+    v("motion_rad", motion_rad);
+    v("rest_rad", rest_rad);
+  }
+  void Validate() const;  ///< Throws FaultsFound.
+};
+
+struct BodyFitterConfig {
+  int iterations = 12;            ///< Of each fit.
+  double first_scale_m = 0.10;    ///< Of the robust weights, in the first round ...
+  double last_scale_m = 0.03;     ///< ... and in the last.
+  double judged_scale_m = 0.02;   ///< By which a fit is judged against others.
+  double first_reach_m = 0.25;    ///< Points farther from all limbs do not count, in the first ...
+  double last_reach_m = 0.10;     ///< ... and in the last round.
+  double across_m = 0.012;        ///< Spread of clothes about their cylinders, one sigma.
+  double point_weight = 0.05;     ///< Of a point: neighbours' errors are much the same.
+  double counted_points = 1000;   ///< More points than these count as so many.
+  double root_motion_m = 0.04;    ///< As JointFreedom::motion_rad, of the base limb.
+  double root_motion_rad = 0.12;  ///< Likewise.
+  double motion_weight = 0.4;     ///< Of the prediction.
+  double limit_rad = 0.03;        ///< Spread of angles beyond their limits.
+  OutlineConfig outline;
+  std::vector<JointFreedom> joints{
+      {"abdomen", 0.06, 0.20},  {"chest", 0.06, 0.20},    {"neck", 0.10, 0.25},
+      {"head", 0.12, 0.40},     {"clavicle", 0.08, 0.15}, {"upper_arm", 0.22, 2.0},
+      {"lower_arm", 0.22, 2.0}, {"hand", 0.20, 0.30},     {"thigh", 0.12, 1.0},
+      {"shank", 0.15, 1.5},     {"foot", 0.12, 0.25}};
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("iterations", iterations);
+    v("first_scale_m", first_scale_m);
+    v("last_scale_m", last_scale_m);
+    v("judged_scale_m", judged_scale_m);
+    v("first_reach_m", first_reach_m);
+    v("last_reach_m", last_reach_m);
+    v("across_m", across_m);
+    v("point_weight", point_weight);
+    v("counted_points", counted_points);
+    v("root_motion_m", root_motion_m);
+    v("root_motion_rad", root_motion_rad);
+    v("motion_weight", motion_weight);
+    v("limit_rad", limit_rad);
+    v("outline", outline);
+    v("joints", joints);
+  }
+  void Validate() const;  ///< Throws FaultsFound.
+};
+
+/// What one limb rests on.
+struct LimbEvidence {
+  int inlier_count = 0;
+  double residual_m = -1.0;  ///< RMS distance of its points along its normals; -1 = no points.
+  LimbView view;             ///< How the depth image sees its surface.
+};
+
+struct FitResult {
+  double score = 0.0;      ///< Of the whole body: how badly points and free space agree with it.
+  double explained = 0.0;  ///< Share of the points that a limb explains.
+  std::vector<LimbEvidence> limbs;
+};
+
+/// Fits a body to the evidence of one depth image by damped Gauss-Newton steps over root and joint
+/// angles, which keep the parts connected by construction.
+class BodyFitter {
+ public:
+  BodyFitter(const BodyFitterConfig& config, const body_model::BodyModel& model);
+
+  /// Improves `pose`. `predicted` is where it is expected, `seconds` after it was known (nothing =
+  /// not known at all: no pull towards it).
+  FitResult Fit(const BodyEvidence& evidence, const std::optional<body_model::Floor>& floor,
+                const body_model::BodyPose& predicted, std::optional<double> seconds,
+                body_model::BodyPose& pose);
+
+  const body_model::Kinematics& kinematics() const { return kinematics_; }
+  body_model::Kinematics& kinematics() { return kinematics_; }
+  /// Of the last fit, in the order of body_model::PointJacobian.
+  const Eigen::MatrixXd& information() const { return equations_.information; }
+
+ private:
+  void Assign(const BodyPoints& points, double reach_m);
+  void AddPoints(const BodyPoints& points, double scale_m);
+  void AddPriors(const body_model::BodyPose& pose, const body_model::BodyPose& predicted,
+                 std::optional<double> seconds);
+  void AddLimits(const body_model::BodyPose& pose);
+  void AddFloor(const std::optional<body_model::Floor>& floor);
+  void Step(body_model::BodyPose& pose);
+  FitResult Judge(const BodyEvidence& evidence);
+
+  BodyFitterConfig config_;
+  const body_model::BodyModel* model_;
+  body_model::Kinematics kinematics_;
+  body_model::BodyPose rest_;
+  std::vector<JointFreedom> freedoms_;  ///< Of each limb.
+  OutlineTerm outline_;
+  LimbEquations limb_equations_;
+  BodyEquations equations_;
+  std::vector<LimbSurface> surfaces_;
+  std::vector<Eigen::Vector3f> ball_centres_m_;  ///< Around each limb.
+  std::vector<float> ball_radii_m_;
+  std::vector<float> scores_;
+  std::vector<int> winners_;
+  BodyPoints sorted_;
+  std::vector<int> first_of_limb_;  ///< Among sorted_.
+  std::vector<LimbSums> sums_;
+};
+
+}  // namespace deixis::pose_fitter

@@ -1,0 +1,61 @@
+#include "services/pose_fitter/pose_fitter_service.h"
+
+#include "common/messages/body_poses.h"
+#include "common/messages/person_model.h"
+#include "common/messages/stereo_calibration.h"
+#include "common/messages/stereo_image.h"
+#include "common/transport/channel_name.h"
+
+namespace deixis::pose_fitter {
+
+constexpr double kModelPeriod_s = 1.0;
+
+void PoseFitterServiceConfig::Validate() const {
+  config::Faults faults;
+  const auto channel_faults =
+      transport::ChannelFaults({{"stereo_channel", stereo_channel},
+                                {"calibration_channel", calibration_channel},
+                                {"model_channel", model_channel},
+                                {"poses_channel", poses_channel}});
+  for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
+  faults.ThrowIfAny();
+}
+
+PoseFitterService::PoseFitterService(const PoseFitterServiceConfig& config, transport::Bus& input,
+                                     transport::Bus& output)
+    : config_(config), output_(output), fitter_(config.fitter) {
+  using transport::Delivery;
+  input.Subscribe<geometry::StereoCalibration>(
+      config.calibration_channel, Delivery::kEvery,
+      [this](const geometry::StereoCalibration& calibration) { calibration_ = calibration; });
+  input.Subscribe<images::StereoImage>(
+      config.stereo_channel, Delivery::kLatest,
+      [this](const images::StereoImage& stereo) { OnStereo(stereo); });
+}
+
+transport::Health PoseFitterService::health() const {
+  if (calibration_) return {};
+  return {false, "waiting for the first " + config_.calibration_channel};
+}
+
+void PoseFitterService::OnStereo(const images::StereoImage& stereo) {
+  if (!calibration_) return;
+  const auto& poses =
+      fitter_.Track({stereo.left.time, calibration_->camera, stereo.depth_mm}, *calibration_);
+  PublishModels(stereo.left.time);
+  output_.Publish(config_.poses_channel, poses);
+}
+
+void PoseFitterService::PublishModels(Timestamp time) {
+  if (models_time_ && SecondsBetween(*models_time_, time) < kModelPeriod_s &&
+      !(time < *models_time_)) {
+    return;
+  }
+  models_time_ = time;
+  for (auto& model : fitter_.Models()) {
+    model.time = time;
+    output_.Publish(config_.model_channel, model);
+  }
+}
+
+}  // namespace deixis::pose_fitter

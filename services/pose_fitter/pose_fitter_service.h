@@ -1,0 +1,48 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "common/images/stereo_image.h"
+#include "common/transport/bus.h"
+#include "common/transport/status_reporter.h"
+#include "services/pose_fitter/core/pose_fitter.h"
+
+namespace deixis::pose_fitter {
+
+struct PoseFitterServiceConfig {
+  std::string stereo_channel = "STEREO";                   ///< Depth comes from here.
+  std::string calibration_channel = "STEREO_CALIBRATION";  ///< Its camera.
+  std::string model_channel = "BODY_MODEL";                ///< Models of the people go here.
+  std::string poses_channel = "BODY_POSES";                ///< One message per depth image.
+  PoseFitterConfig fitter;
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("stereo_channel", stereo_channel);
+    v("calibration_channel", calibration_channel);
+    v("model_channel", model_channel);
+    v("poses_channel", poses_channel);
+    v("fitter", fitter);
+  }
+  void Validate() const;
+};
+
+/// Answers every depth image with the poses of the people in it.
+class PoseFitterService {
+ public:
+  PoseFitterService(const PoseFitterServiceConfig& config, transport::Bus& input,
+                    transport::Bus& output);
+  transport::Health health() const;
+
+ private:
+  void OnStereo(const images::StereoImage& stereo);
+  void PublishModels(Timestamp time);
+
+  PoseFitterServiceConfig config_;
+  transport::Bus& output_;
+  PoseFitter fitter_;
+  std::optional<geometry::StereoCalibration> calibration_;
+  std::optional<Timestamp> models_time_;
+};
+
+}  // namespace deixis::pose_fitter
