@@ -102,8 +102,8 @@ BENCHMARK(FindRegions)->Arg(320)->Arg(640)->Unit(benchmark::kMillisecond);
 
 std::int64_t VoxelOf(const Eigen::Vector3d& point_m) {
   const Eigen::Array3d index = (point_m.array() / 0.02).floor() + 4096.0;
-  return (static_cast<std::int64_t>(index.x()) << 32) + (static_cast<std::int64_t>(index.y()) << 16) +
-         static_cast<std::int64_t>(index.z());
+  return (static_cast<std::int64_t>(index.x()) << 32) +
+         (static_cast<std::int64_t>(index.y()) << 16) + static_cast<std::int64_t>(index.z());
 }
 
 double RecallOf(const std::vector<float>& points, const test::Picture& picture,

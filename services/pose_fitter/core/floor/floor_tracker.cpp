@@ -12,9 +12,9 @@
 namespace deixis::pose_fitter {
 namespace {
 
-constexpr int kColumns = 80;  // Of the sampled grid.
-constexpr int kDraws = 1200;       // Of three samples; most are no floor at all,
-constexpr int kHypotheses = 200;   // so many that may be one are weighed.
+constexpr int kColumns = 80;      // Of the sampled grid.
+constexpr int kDraws = 1200;      // Of three samples; most are no floor at all,
+constexpr int kHypotheses = 200;  // so many that may be one are weighed.
 constexpr int kFinalists = 6;
 constexpr int kRefinements = 3;
 constexpr std::uint64_t kSeed = 0x5EA2C4F1002;
