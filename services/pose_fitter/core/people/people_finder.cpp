@@ -48,7 +48,7 @@ const PeopleRegions& PeopleFinder::Find(const DepthView& depth,
   SetGate(depth.camera());
   FindTops(depth);
   Link(depth, is_sound);
-  pieces_.Find(depth, room_, config_.least_piece_m2, runs_);
+  pieces_.Find(depth, room_, config_.least_piece_m2, config_.shape.largest_area_m2, runs_);
   Group(depth);
   Write(depth);
   return regions_;
@@ -98,7 +98,6 @@ void PeopleFinder::FindTops(const DepthView& depth) {
 void PeopleFinder::ChooseTops(const DepthCamera& camera) {
   tops_ = {};
   tops_.tolerance_m = static_cast<float>(config_.top_thickness_m);
-  for (float& height_m : tops_.height_m) height_m = -static_cast<float>(kAnyHeight_m);
   const double least = config_.least_top_m2 * camera.focal_px.prod();
   while (tops_.count < Tops::kMost) {
     int best = 1;
@@ -120,16 +119,19 @@ void PeopleFinder::ChooseTops(const DepthCamera& camera) {
 void PeopleFinder::Link(const DepthView& depth, const std::vector<std::uint8_t>& is_sound) {
   const DepthCamera& camera = depth.camera();
   const auto width = static_cast<std::size_t>(camera.width_px);
-  links_.assign(2 * width, 0);
+  links_.assign(width, 0);
+  is_inside_.assign(2 * width, 0);
   runs_.Start(camera.width_px, camera.height_px);
   for (int v = 0; v < camera.height_px; ++v) {
     const std::size_t row = static_cast<std::size_t>(v) * width;
-    const std::size_t above = v > 0 ? row - width : row;
-    std::uint8_t* links = links_.data() + (v % 2) * camera.width_px;
-    const std::uint8_t* above_links = links_.data() + ((v + 1) % 2) * camera.width_px;
-    LinkRow(depth.z_m().data() + above, depth.z_m().data() + row, is_sound.data() + row,
-            is_level_.data() + row, above_links, camera.width_px, GateOf(camera, v), tops_, links);
-    runs_.AddRow(links);
+    const float* row_m = depth.z_m().data() + row;
+    std::uint8_t* is_inside = is_inside_.data() + (v % 2) * camera.width_px;
+    const std::uint8_t* above_inside = is_inside_.data() + ((v + 1) % 2) * camera.width_px;
+    GateRow(row_m, is_sound.data() + row, is_level_.data() + row, camera.width_px,
+            GateOf(camera, v), tops_, is_inside);
+    LinkRow(v > 0 ? row_m - width : row_m, row_m, above_inside, is_inside, camera.width_px,
+            gate_.step, links_.data());
+    runs_.AddRow(links_.data());
   }
   runs_.Finish();
 }

@@ -97,9 +97,10 @@ class PeopleFinder {
   bool has_floor_ = false;
   RowGate gate_;
   Tops tops_;
-  std::vector<float> level_area_;       ///< Per centimetre above the floor.
-  std::vector<std::uint8_t> is_level_;  ///< Per pixel.
-  std::vector<std::uint8_t> links_;     ///< Of two rows.
+  std::vector<float> level_area_;        ///< Per centimetre above the floor.
+  std::vector<std::uint8_t> is_level_;   ///< Per pixel.
+  std::vector<std::uint8_t> is_inside_;  ///< Of two rows.
+  std::vector<std::uint8_t> links_;      ///< Of one row.
   SurfaceRuns runs_;
   SurfacePieces pieces_;
   PersonGroups groups_;

@@ -6,7 +6,7 @@
 namespace deixis::pose_fitter {
 namespace {
 
-constexpr int kSampleEvery_px = 8;  // Enough for sums: neighbours tell the same.
+constexpr int kSamplesPerRow = 40;  // Of the picture: neighbours tell the same.
 constexpr int kGap_px = 6;          // Half-occluded and flying pixels between two surfaces.
 constexpr int kGapRows_px = 3;
 
@@ -55,8 +55,8 @@ SurfacePieces::SurfacePieces() : contacts_(static_cast<std::size_t>(kMost * kMos
   shapes_.reserve(kMost);
 }
 
-void SurfacePieces::Find(const DepthView& depth, const RoomFrame& room, double least_area_m2,
-                         SurfaceRuns& runs) {
+void SurfacePieces::Find(const DepthView& depth, const RoomFrame& room, double least_m2,
+                         double largest_m2, SurfaceRuns& runs) {
   const std::size_t capacity = runs.runs().capacity();
   areas_.reserve(capacity);
   order_.reserve(capacity);
@@ -68,15 +68,16 @@ void SurfacePieces::Find(const DepthView& depth, const RoomFrame& room, double l
     areas_[static_cast<std::size_t>(run.component)] +=
         per_pixel * z * z * static_cast<float>(run.end_px - run.begin_px);
   }
-  Choose(least_area_m2, runs);
+  Choose(least_m2, largest_m2, runs);
   Measure(depth, room, runs);
   FindContacts(depth, runs);
 }
 
-void SurfacePieces::Choose(double least_area_m2, SurfaceRuns& runs) {
+void SurfacePieces::Choose(double least_m2, double largest_m2, SurfaceRuns& runs) {
   order_.clear();
   for (std::size_t i = 0; i < areas_.size(); ++i) {
-    if (static_cast<double>(areas_[i]) >= least_area_m2) order_.push_back(static_cast<int>(i));
+    const auto area_m2 = static_cast<double>(areas_[i]);
+    if (area_m2 >= least_m2 && area_m2 <= largest_m2) order_.push_back(static_cast<int>(i));
   }
   const auto area = [this](int i) { return areas_[static_cast<std::size_t>(i)]; };
   std::sort(order_.begin(), order_.end(),
@@ -95,16 +96,20 @@ void SurfacePieces::Measure(const DepthView& depth, const RoomFrame& room,
                             const SurfaceRuns& runs) {
   shapes_.assign(order_.size(), {});
   const double per_pixel = 1.0 / depth.camera().focal_px.prod();
+  const int every_px = std::max(1, depth.width_px() / kSamplesPerRow);
   for (const SurfaceRun& run : runs.runs()) {
     if (run.component < 0) continue;
     SurfaceShape& shape = shapes_[static_cast<std::size_t>(run.component)];
     const int length = run.end_px - run.begin_px;
-    const int samples = 1 + (length - 1) / kSampleEvery_px;
+    const int samples = 1 + (length - 1) / every_px;
+    const auto middle_m =
+        static_cast<double>(depth.z_m((run.begin_px + run.end_px) / 2, run.row_px));
+    const double sigma_m = depth.camera().noise.Sigma_m(middle_m);
     for (int i = 0; i < samples; ++i) {
       const int u = run.begin_px + (2 * i + 1) * length / (2 * samples);
       const Eigen::Vector3d point_m = depth.Point(u, run.row_px);
       shape.Add(room.FromCamera(point_m), static_cast<double>(length) / samples,
-                per_pixel * point_m.z() * point_m.z(), depth.camera().noise.Sigma_m(point_m.z()));
+                per_pixel * point_m.z() * point_m.z(), sigma_m);
     }
   }
 }

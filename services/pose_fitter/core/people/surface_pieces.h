@@ -52,8 +52,10 @@ class SurfacePieces {
   static constexpr int kMost = 96;  ///< The largest ones; the others are left out.
 
   SurfacePieces();
-  /// Numbers the pieces of `runs`, whose components become their numbers, -1 = left out.
-  void Find(const DepthView& depth, const RoomFrame& room, double least_area_m2, SurfaceRuns& runs);
+  /// Numbers the pieces of `runs` whose area, seen head on, lies between the two; components become
+  /// these numbers, -1 = left out.
+  void Find(const DepthView& depth, const RoomFrame& room, double least_m2, double largest_m2,
+            SurfaceRuns& runs);
 
   int count() const { return static_cast<int>(shapes_.size()); }
   const SurfaceShape& shape(int piece) const { return shapes_[static_cast<std::size_t>(piece)]; }
@@ -62,7 +64,7 @@ class SurfacePieces {
   }
 
  private:
-  void Choose(double least_area_m2, SurfaceRuns& runs);
+  void Choose(double least_m2, double largest_m2, SurfaceRuns& runs);
   void Measure(const DepthView& depth, const RoomFrame& room, const SurfaceRuns& runs);
   void FindContacts(const DepthView& depth, const SurfaceRuns& runs);
   void Touch(int a, int b, float step_m);
