@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 _LOST = "lost"  # in place of a figure that falls on what was missed
-_HEADING = (f"{'':<24}{'joints':>8}{'median mm':>11}{'p95 mm':>9}{'<10 cm %':>10}")
+_ERROR_HEADING = (f"{'':<24}{'joints':>8}{'median mm':>11}{'p95 mm':>9}{'<10 cm %':>10}")
 _MORE = (f"{'lost %':>8}{'start':>7}{'again':>7}{'hidden mm':>11}{'angle deg':>11}{'p95':>7}{'cover90 %':>11}"
          f"{'hid. 90':>9}{'overclaim %':>13}{'ids':>5}{'false/min':>11}{'ms':>8}{'p99':>8}")
-_LEGEND = """\
+HEADING = _ERROR_HEADING + _MORE
+LEGEND = """\
 Errors of visible joints; missed ones are infinitely wrong ("lost" where a figure falls on them). lost: frames in which
 nobody stands for the person, or most visible joints are off by more than 15 cm. start, again: frames until the first
 and each further start, medians. hidden: median of hidden joints. cover90: share of visible joints inside the stated
@@ -19,18 +20,18 @@ than 15 cm. ids: changes of the person's number. false/min: people where nobody 
 def show(report: dict[str, Any]) -> None:
     """Prints one table per column: sequences, joints, stretches, then the whole."""
     for column, summary in report["summary"].items():
-        print(f"\n{column.replace('_', ' ')}\n{_HEADING}{_MORE}")
+        print(f"\n{column.replace('_', ' ')}\n{HEADING}")
         for row in report["sequences"]:
             if row["column"] == column:
                 print(_errors(row["name"], row, "visible_") + _more(row))
         print(_errors("all", summary, "visible_") + _more(summary))
         _show_parts(summary)
     if report["summary"]:
-        print(_LEGEND)
+        print(LEGEND)
 
 
 def _show_parts(summary: dict[str, Any]) -> None:
-    print(f"{_HEADING}{'x off mm':>10}{'y off mm':>10}{'z off mm':>10}")
+    print(f"{_ERROR_HEADING}{'x off mm':>10}{'y off mm':>10}{'z off mm':>10}")
     for kind, figures in summary["joints"].items():
         print(_errors(kind, figures, "") + "".join(_number(figures[f"{axis}_bias_m"], 10, 0, 1000)
                                                    for axis in "xyz"))
@@ -39,7 +40,7 @@ def _show_parts(summary: dict[str, Any]) -> None:
     print("lengths: " + "; ".join(f"{name} {_number(a['median'], 0, 0, 1000)} mm"
                                   for name, a in summary["length_error_m"].items()))
     if summary["segments"]:
-        print(f"{_HEADING}{'hidden mm':>11}{'lost joints':>13}{'longest s':>11}  worst joint")
+        print(f"{_ERROR_HEADING}{'hidden mm':>11}{'lost joints':>13}{'longest s':>11}  worst joint")
     for label, figures in summary["segments"].items():
         print(_errors(label, figures, "visible_") + _number(figures["hidden_median_m"], 11, 0, 1000)
               + f"{figures['lost_episodes']:>13}{figures['longest_lost_s']:>11.2f}  {figures['worst_joint']}")
