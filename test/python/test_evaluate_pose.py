@@ -14,7 +14,8 @@ import pytest
 from deixis_frontend.cli import main
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import (
-    pose, pose_chain, pose_geometry, pose_matching, pose_report, pose_results, pose_scores)
+    pose, pose_chain, pose_geometry, pose_matching, pose_outlines, pose_plots, pose_report, pose_results,
+    pose_scores)
 from deixis_frontend.evaluation.pose_joints import INDEX, JOINTS, NAMES, JointPlace
 from deixis_frontend.evaluation.pose_matching import JudgedPerson, JudgedScene
 from deixis_frontend.evaluation.pose_results import HIDDEN, INFERRED, LOST, MEASURED, FoundFrame, FoundPerson
@@ -278,6 +279,41 @@ def test_an_offset_turns_with_the_limb_and_grows_with_the_stature() -> None:
 def test_a_pose_of_a_model_that_never_came_is_nobody() -> None:
     [frame] = pose_results.read(_message(["head"], model_id=6))
     assert frame.people == []
+
+
+def test_the_outline_of_a_limb_is_what_its_ellipses_span() -> None:
+    limb = SimpleNamespace(a0_m=0.1, b0_m=0.2, centre0_m=(0.0, 0.0), a1_m=0.05, b1_m=0.05, centre1_m=(0.3, 0.0),
+                           length_m=0.0)
+    pose_of_limb = SimpleNamespace(state=HIDDEN, in_frame=SimpleNamespace(
+        rotation_wxyz=(1.0, 0.0, 0.0, 0.0), translation_m=(0.0, 0.0, 2.0)))
+    camera = pose_outlines.Pinhole((100.0, 100.0), (50.0, 40.0))
+    model, body = SimpleNamespace(limbs=[limb]), SimpleNamespace(limbs=[pose_of_limb])
+    [(state, outline)] = pose_outlines.limb_outlines(body, model, camera)
+    corners = np.array(outline)
+    assert state == HIDDEN
+    assert corners.min(axis=0) == pytest.approx((45.0, 30.0)) and corners.max(axis=0) == pytest.approx((67.5, 50.0))
+    pose_of_limb.in_frame.translation_m = (0.0, 0.0, -1.0)
+    assert pose_outlines.limb_outlines(body, model, camera) == []
+
+
+def test_the_hull_leaves_out_what_is_inside() -> None:
+    square = np.array([(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (1.0, 1.0), (1.0, 0.0)])
+    assert set(pose_outlines.convex_hull(square)) == {(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)}
+
+
+def test_a_cropped_camera_sees_the_same_point_where_the_crop_shows_it() -> None:
+    camera = pose_outlines.Pinhole((100.0, 100.0), (50.0, 40.0))
+    point = np.array([[0.2, 0.1, 2.0]])
+    [[u, v]] = camera.pixels(point)
+    [[u2, v2]] = camera.cropped((20, 10, 60, 40), 80).pixels(point)
+    assert (u2, v2) == pytest.approx((2 * (u + 0.5 - 20) - 0.5, 2 * (v + 0.5 - 10) - 0.5))
+
+
+def test_the_worst_frames_come_first_and_lie_apart() -> None:
+    found = _frames(_true())
+    for k, metres in ((10, 0.5), (11, 0.4), (40, 0.3)):
+        found[k].people[0].joints_m[INDEX["neck"]] += (metres, 0.0, 0.0)
+    assert pose_plots.worst_frames(_judge(found).people[0])[:2] == [10, 40]
 
 
 # The command, with the programs replaced by what they would say.

@@ -18,7 +18,7 @@ import numpy as np
 from deixis_frontend import layout
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import (
-    pose_chain, pose_matching, pose_report, pose_results, pose_scores, pose_truth, report_options)
+    pose_chain, pose_matching, pose_plots, pose_report, pose_results, pose_scores, pose_truth, report_options)
 from deixis_frontend.evaluation.pose_chain import Chain
 from deixis_frontend.evaluation.pose_matching import JudgedScene
 from deixis_frontend.evaluation.sequences import Sequence, Skipped, read_sequences
@@ -37,7 +37,6 @@ class Run:
     scene: pose_truth.TrueScene
     judged: JudgedScene
     fit_ms: list[float]
-    log: Path  # of STEREO; gone after the evaluation unless it is kept
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -70,8 +69,6 @@ def run(arguments: argparse.Namespace) -> int:
                         f" measured: each is a folder with sequence.csv, {', '.join(pose_truth.NEEDED)}")
     with tempfile.TemporaryDirectory() as scratch:
         runs, failed = _run_all(arguments, sequences, Path(scratch))
-        if arguments.plots:
-            _plot(runs, arguments.plots)
     report = _report(runs, skipped, failed)
     pose_report.show(report)
     report_options.write_json(arguments, report)
@@ -89,7 +86,7 @@ def _run_all(arguments: argparse.Namespace, sequences: list[Sequence],
     failed: list[Skipped] = []
     with ThreadPoolExecutor(arguments.jobs) as pool, ProgressBar(len(sequences)) as bar:
         jobs: dict[Future[list[Run]], Sequence] = {
-            pool.submit(_run_sequence, where, sequence, chain, columns, scratch): sequence
+            pool.submit(_run_sequence, where, sequence, chain, columns, scratch, arguments.plots): sequence
             for sequence in sequences}
         for done, job in enumerate(as_completed(jobs), 1):
             bar.show(done)
@@ -102,7 +99,7 @@ def _run_all(arguments: argparse.Namespace, sequences: list[Sequence],
 
 
 def _run_sequence(where: layout.Layout, sequence: Sequence, chain: Chain, columns: tuple[str, ...],
-                  scratch: Path) -> list[Run]:
+                  scratch: Path, plots: Path | None) -> list[Run]:
     scene = pose_truth.read_scene(sequence)
     log = pose_chain.stereo_log(where, sequence.folder, chain, scratch)
     runs = []
@@ -112,7 +109,10 @@ def _run_sequence(where: layout.Layout, sequence: Sequence, chain: Chain, column
             continue
         fitted = pose_chain.fit(where, log, chain, (f"fitter.stature_m={stature:g}",))
         judged = pose_matching.judge(scene, pose_results.read(fitted.messages))
-        runs.append(Run(sequence, column, scene, judged, fitted.fit_ms, log))
+        runs.append(Run(sequence, column, scene, judged, fitted.fit_ms))
+        if plots:  # At once: messages of all runs together are too much to keep.
+            pose_plots.write(f"{sequence.name}_{column}", judged.people[0], scene.segments, log, fitted.messages,
+                             plots)
     return runs
 
 
@@ -147,10 +147,3 @@ def _times(runs: list[Run]) -> dict[str, Any]:
     times = np.array([ms for r in runs for ms in r.fit_ms])
     return {"fit_ms_median": pose_scores.percentile(times, 50, 2),
             "fit_ms_p99": pose_scores.percentile(times, 99, 2)}
-
-
-def _plot(runs: list[Run], folder: Path) -> None:
-    from deixis_frontend.evaluation import pose_plots
-
-    for one in runs:
-        pose_plots.write(f"{one.sequence.name}_{one.column}", one.judged, one.scene.segments, one.log, folder)
