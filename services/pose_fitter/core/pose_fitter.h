@@ -55,7 +55,7 @@ struct StartConfig {
 };
 
 struct PoseFitterConfig {
-  std::string body_model = "body_models/whole_body_detailed.yaml";  ///< The tree of limbs.
+  std::string body_model = "body_models/clothed_body.yaml";  ///< The tree of limbs.
   double stature_m = 0.0;           ///< Of the people who come; 0 = not known.
   double stature_sigma_m = 0.01;    ///< Its spread.
   double velocity_share = 0.6;      ///< Of the motion that goes on from image to image.
