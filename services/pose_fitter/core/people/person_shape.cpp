@@ -11,7 +11,7 @@ namespace {
 constexpr int kLeastContact = 4;      // Pairs of pixels, below which a contact is chance.
 constexpr double kLimbArea_m2 = 0.2;  // Larger pieces are no limb that hides from its trunk.
 constexpr double kWholePerson_m2 = 0.3;
-constexpr double kApart_m = 0.35;  // Along the floor, between pieces of one person above another.
+constexpr double kApart_m = 0.25;  // Along the floor, between pieces of one person above another.
 
 double AcrossFloor(const SurfaceShape& shape) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;

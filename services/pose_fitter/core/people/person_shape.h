@@ -15,7 +15,7 @@ struct PersonShapeConfig {
   double largest_depth_m = 1.5;  ///< Across that.
   double least_height_m = 0.3;   ///< From the lowest to the highest part.
   double flat_m = 0.012;         ///< What lies so near to a plane, noise apart, is furniture.
-  double largest_step_m = 0.55;  ///< In depth between parts of one person that meet in the image.
+  double largest_step_m = 0.35;  ///< In depth between parts of one person that meet in the image.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
