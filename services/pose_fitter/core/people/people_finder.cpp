@@ -10,7 +10,7 @@ static_assert(SurfacePieces::kMost < 256, "labels are bytes");
 
 namespace {
 
-constexpr double kHeightSigmas = 2.5;  // Noise of the floor that is cut off with it.
+constexpr double kHeightSigmas = 1.5;  // Noise of the floor that is cut off with it.
 constexpr double kAnyHeight_m = 100.0;
 constexpr int kLevelRows = 60;  // Rows of a picture, over how far apart level pixels are compared.
 constexpr int kTopBins = 140;   // Centimetres: nothing higher is sat or lain on.
