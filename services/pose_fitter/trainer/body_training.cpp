@@ -18,7 +18,6 @@ using Eigen::Vector3d;
 constexpr int kUprightFrame = 0;       // Sequences begin with people who stand.
 constexpr int kPixelStep = 5;          // Between surface points.
 constexpr double kWorstPose_m = 0.02;  // Frames whose joints are not met teach nothing.
-constexpr double kStatureSigma_m = 0.005;
 constexpr double kNothing_m = 5e-4;
 constexpr std::size_t kFewPoints = 60;
 constexpr int kRounds = 6;

@@ -10,6 +10,9 @@
 
 namespace deixis::pose_fitter {
 
+/// How sure the stature that is given of somebody is.
+inline constexpr double kStatureSigma_m = 0.005;
+
 /// What is learned from one person.
 struct TrainedPerson {
   std::string id;

@@ -25,6 +25,6 @@ body_model::BodyPlan WithLengths(const body_model::BodyPlan& plan, const Lengths
 Lengths JointTree(const RenderedPerson& person, int frame);
 
 /// Leaning of the neck, x per z of its rest direction: one for all people.
-inline constexpr double kNeckLean = 0.4;
+inline constexpr double kNeckLean = 0.375;
 
 }  // namespace deixis::pose_fitter

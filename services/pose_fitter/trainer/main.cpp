@@ -1,15 +1,16 @@
 // Learns the clothed body, config/body_models/clothed_body.yaml, from rendered people with truth.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <sstream>
 
 #include "common/config/config.h"
 #include "common/program/command_line.h"
 #include "services/pose_fitter/trainer/body_training.h"
+#include "services/pose_fitter/trainer/calibration_score.h"
 
 namespace deixis::pose_fitter {
 namespace {
@@ -40,8 +41,8 @@ Arguments Parse(int argc, char** argv) {
   return arguments;
 }
 
-std::vector<TrainedPerson> ReadPeople(const Arguments& arguments,
-                                      const body_model::BodyPlan& plan) {
+std::vector<TrainedPerson> ReadPeople(const Arguments& arguments, const body_model::BodyPlan& plan,
+                                      const anthropometry::Populations& populations) {
   std::map<std::string, std::vector<RenderedPerson>> sequences;
   for (const fs::path& folder : arguments.sequences) {
     RenderedPerson sequence = ReadRenderedPerson(folder);
@@ -50,8 +51,6 @@ std::vector<TrainedPerson> ReadPeople(const Arguments& arguments,
     }
   }
   if (sequences.size() < 2) throw config::ConfigError("at least two people are needed");
-  const auto populations =
-      anthropometry::Populations::Load(config::FindConfig("kinematics/population.yaml"));
   std::vector<TrainedPerson> people;
   for (const auto& [id, all] : sequences) people.push_back(ReadPerson(all, plan, populations));
   return people;
@@ -78,25 +77,48 @@ std::string Text(const SurfaceError& error) {
   return text.str();
 }
 
+/// What is learned without that person.
+body_model::BodyPlan PlanOfOthers(const body_model::BodyPlan& plan,
+                                  const std::vector<TrainedPerson>& people, const std::string& id) {
+  std::vector<TrainedPerson> others;
+  for (const TrainedPerson& other : people) {
+    if (other.id != id) others.push_back(other);
+  }
+  return WithShares(plan, LearnShares(others));
+}
+
 void PrintSurfaces(const body_model::BodyPlan& plan, const std::vector<TrainedPerson>& people) {
-  std::cout
-      << "person,frames,points,joint_error_mm,hand_made_rms_mm,explained,own_rms_mm,explained,"
-         "others_rms_mm,explained\n";
+  std::cout << "person,frames,points,joint_error_mm,hand_made_rms_mm,hand_made_explained,"
+               "own_rms_mm,own_explained,others_rms_mm,others_explained\n";
   for (const TrainedPerson& person : people) {
-    std::vector<TrainedPerson> others;
-    for (const TrainedPerson& other : people) {
-      if (other.id != person.id) others.push_back(other);
-    }
     const auto error = [&person](const body_model::BodyPlan& shaped) {
       return MeasureSurface(OnOwnJoints(shaped, person), person.frames);
     };
     const SurfaceError own = error(WithLengths(plan, person.surface));
     std::cout << person.id << ',' << person.frames.size() << ',' << own.points << ','
-              << Millimetres(person.joint_error_m) << ',' << Text(error(plan)) << ',' << Text(own);
-    if (others.size() > 1) {
-      std::cout << ',' << Text(error(WithShares(plan, LearnShares(others))));
-    }
-    std::cout << std::endl;
+              << Millimetres(person.joint_error_m) << ',' << Text(error(plan)) << ',' << Text(own)
+              << ',' << Text(error(PlanOfOthers(plan, people, person.id))) << '\n';
+  }
+}
+
+void PrintErrors(const std::map<std::string, double>& errors_m, double rms_m) {
+  for (const auto& [limb, error_m] : errors_m) std::cout << ',' << Millimetres(error_m);
+  std::cout << ',' << Millimetres(rms_m) << '\n';
+}
+
+void PrintCalibrations(const body_model::BodyPlan& plan, const std::vector<TrainedPerson>& people,
+                       const anthropometry::Populations& populations) {
+  std::cout << "calibrated_person,frames,lengths,clavicle_error_mm,lower_arm_error_mm,"
+               "shank_error_mm,thigh_error_mm,upper_arm_error_mm,surface_rms_mm\n";
+  for (const TrainedPerson& person : people) {
+    const CalibrationScore score =
+        ScoreCalibration(PlanOfOthers(plan, people, person.id), person, populations);
+    const std::string who = person.id + "," + std::to_string(score.frames);
+    std::cout << who << ",expected";
+    PrintErrors(score.expected_error_m, score.expected_rms_m);
+    if (score.is_refused) continue;
+    std::cout << who << ",calibrated";
+    PrintErrors(score.calibrated_error_m, score.calibrated_rms_m);
   }
 }
 
@@ -119,11 +141,16 @@ std::string Heading(const std::vector<TrainedPerson>& people, const std::string&
 void Train(const Arguments& arguments) {
   const auto plan = ClothedPlan(
       body_model::LoadBodyPlan(config::FindConfig("body_models/whole_body_detailed.yaml")));
-  std::vector<TrainedPerson> people = ReadPeople(arguments, plan);
+  const auto populations =
+      anthropometry::Populations::Load(config::FindConfig("kinematics/population.yaml"));
+  std::vector<TrainedPerson> people = ReadPeople(arguments, plan, populations);
   for (TrainedPerson& person : people) FitSurface(plan, person);
   const auto learned = LearnShares(people);
   PrintLengths(learned);
-  PrintSurfaces(plan, people);
+  if (people.size() > 2) {
+    PrintSurfaces(plan, people);
+    PrintCalibrations(plan, people, populations);
+  }
   std::ofstream out(arguments.output);
   out << Heading(people, arguments.left_out) << body_model::ToYaml(WithShares(plan, learned));
   out.close();

@@ -9,6 +9,8 @@
 namespace deixis::pose_fitter {
 namespace {
 
+constexpr float kLeastLean = 0.07F;  // What is seen along itself shows no area.
+
 [[gnu::always_inline]] inline int IsInside(float z, int u, std::uint8_t is_sound,
                                            const RowGate& gate) {
   const float lean = gate.lean + gate.lean_per_px * static_cast<float>(u);
@@ -64,24 +66,27 @@ void AddLevelArea(const float* row_m, const std::uint8_t* is_level, int width, c
     const float z = row_m[u];
     const float lean = gate.lean + gate.lean_per_px * static_cast<float>(u);
     const auto bin = static_cast<int>(100.0F * (z * lean + gate.camera_height_m));
-    if (bin < 0 || bin >= bin_count) continue;
-    area_per_cm[bin] += z * z / std::max(std::abs(lean), 0.05F);
+    if (bin < 0 || bin >= bin_count || std::abs(lean) < kLeastLean) continue;
+    area_per_cm[bin] += z * z / std::abs(lean);
   }
 }
 
 DEIXIS_KERNEL void GateRow(const float* __restrict row_m, const std::uint8_t* __restrict is_sound,
-                           const std::uint8_t* __restrict is_level, int width, const RowGate& gate,
-                           const Tops& tops, std::uint8_t* __restrict is_inside) {
-  for (int u = 0; u < width; ++u) {
-    is_inside[u] = static_cast<std::uint8_t>(IsInside(row_m[u], u, is_sound[u], gate));
-  }
+                           int width, const RowGate& gate, const Tops& tops,
+                           std::uint8_t* __restrict is_level, std::uint8_t* __restrict is_inside) {
+  constexpr std::uint8_t kOnTop = 2;
   for (int i = 0; i < tops.count; ++i) {
     const float top = tops.height_m[i] - gate.camera_height_m;
     for (int u = 0; u < width; ++u) {
       const float lean = gate.lean + gate.lean_per_px * static_cast<float>(u);
-      const int is_off = static_cast<int>(std::abs(row_m[u] * lean - top) >= tops.tolerance_m);
-      is_inside[u] = static_cast<std::uint8_t>(is_inside[u] & (is_off | (1 - is_level[u])));
+      const int is_on = static_cast<int>(std::abs(row_m[u] * lean - top) < tops.tolerance_m);
+      is_level[u] = static_cast<std::uint8_t>(is_level[u] | (is_level[u] & is_on) * kOnTop);
     }
+  }
+  for (int u = 0; u < width; ++u) {
+    is_level[u] = static_cast<std::uint8_t>(is_level[u] >> 1);
+    is_inside[u] =
+        static_cast<std::uint8_t>(IsInside(row_m[u], u, is_sound[u], gate) & (1 - is_level[u]));
   }
 }
 

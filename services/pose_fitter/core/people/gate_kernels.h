@@ -46,10 +46,10 @@ void MarkLevelRow(const float* above_m, const float* row_m, const float* below_m
 void AddLevelArea(const float* row_m, const std::uint8_t* is_level, int width, const RowGate& gate,
                   float* area_per_cm, int bin_count);
 
-/// Marks in `is_inside` (0 or 1) the pixels of a row that are sound, within range and height, and
-/// not on a level one of `tops`.
-void GateRow(const float* row_m, const std::uint8_t* is_sound, const std::uint8_t* is_level,
-             int width, const RowGate& gate, const Tops& tops, std::uint8_t* is_inside);
+/// Leaves in `is_level` those pixels that are on one of `tops`, and marks in `is_inside` (0 or 1)
+/// the others of the row that are sound and within range and height.
+void GateRow(const float* row_m, const std::uint8_t* is_sound, int width, const RowGate& gate,
+             const Tops& tops, std::uint8_t* is_level, std::uint8_t* is_inside);
 
 /// Fills `links` of a row from its depths and those above; `above_inside` of the first row are
 /// zeros.
