@@ -184,6 +184,18 @@ ShapeParameters::ShapeParameters(const BodyModel& model, const BodyPlan& plan,
         {group.name, group.is_offset, is_all ? stature : SigmaOf(group, plan, estimate)});
     fields_.push_back(std::move(fields));
   }
+  FindChanges();
+}
+
+void ShapeParameters::FindChanges() {
+  changes_.setConstant(count(), model_.limb_count(), false);
+  for (Eigen::Index k = 0; k < count(); ++k) {
+    for (const Field& field : fields_[static_cast<std::size_t>(k)]) changes_(k, field.limb) = true;
+    for (Eigen::Index limb = 1; limb < changes_.cols(); ++limb) {
+      const int parent = model_.limbs()[static_cast<std::size_t>(limb)].parent;
+      changes_(k, limb) = changes_(k, limb) || changes_(k, parent);
+    }
+  }
 }
 
 int ShapeParameters::Find(const std::string& name) const {

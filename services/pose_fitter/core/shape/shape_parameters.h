@@ -32,11 +32,15 @@ class ShapeParameters {
   /// -1 = none of that name.
   int Find(const std::string& name) const;
   const body_model::BodyModel& model() const { return model_; }
+  /// Whether a parameter changes a limb or where it is.
+  bool Changes(int parameter, int limb) const { return changes_(parameter, limb); }
 
   /// The body with these values. Throws LimbFault when it is none (a length below zero).
   body_model::BodyModel Apply(const Eigen::VectorXd& values) const;
 
  private:
+  void FindChanges();
+
   /// A length of a limb that a parameter changes.
   struct Field {
     int limb = 0;
@@ -46,6 +50,7 @@ class ShapeParameters {
   body_model::BodyModel model_;
   std::vector<ShapeParameter> all_;
   std::vector<std::vector<Field>> fields_;  ///< Of each parameter; the first one's are all.
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> changes_;  ///< By parameter and limb.
 };
 
 }  // namespace deixis::pose_fitter

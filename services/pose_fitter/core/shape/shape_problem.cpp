@@ -95,7 +95,9 @@ MatrixXd Damped(const FrameEquations& frame, double damping) {
 /// The bodies with one parameter a step on each, posed alike: for numeric derivatives.
 class ChangedBodies {
  public:
-  ChangedBodies(const std::vector<BodyModel>& models, const BodyPose& pose) {
+  ChangedBodies(const ShapeParameters& parameters, const std::vector<BodyModel>& models,
+                const BodyPose& pose)
+      : parameters_(parameters) {
     for (const BodyModel& model : models) {
       bodies_.emplace_back(model);
       bodies_.back().Update(pose);
@@ -103,13 +105,16 @@ class ChangedBodies {
   }
   /// Of the point's distance by each parameter.
   void Slopes(const ShapePoint& point, double distance_m, VectorXd& slopes) const {
+    slopes.setZero();
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      if (!parameters_.Changes(static_cast<int>(k), point.limb)) continue;
       slopes[static_cast<Eigen::Index>(k)] =
           (Closest(bodies_[k], point).signed_distance_m - distance_m) / kShapeStep;
     }
   }
 
  private:
+  const ShapeParameters& parameters_;
   std::vector<Kinematics> bodies_;
 };
 
@@ -160,7 +165,7 @@ FrameEquations ShapeProblem::EquationsOf(const BodyModel& model,
   FrameEquations equations = Empty(poses_, shapes_);
   Kinematics kinematics(model);
   kinematics.Update(pose);
-  const ChangedBodies others(changed, pose);
+  const ChangedBodies others(parameters_, changed, pose);
   equations.pose_pose.diagonal() = pose_information_;
   equations.pose = -pose_information_.cwiseProduct(PoseDifference(frame.pose, pose));
   Eigen::Matrix3Xd jacobian(3, poses_);

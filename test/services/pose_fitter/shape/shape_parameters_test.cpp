@@ -31,6 +31,20 @@ TEST(ShapeParameters, MoveTheJointsWithTheLimbsLengths) {
             LimbOf(parameters.model(), "left_thigh").shape.a0_m);
 }
 
+TEST(ShapeParameters, KnowWhatTheyChange) {
+  const ShapeParameters parameters = ClothedPerson(1.7, 0.01);
+  const BodyModel& model = parameters.model();
+  const auto changes = [&](const std::string& parameter, const std::string& limb) {
+    return parameters.Changes(parameters.Find(parameter), model.Find(limb).value());
+  };
+  EXPECT_TRUE(changes("upper_arm_length", "right_upper_arm"));
+  EXPECT_TRUE(changes("upper_arm_length", "left_hand"));  // Where it is.
+  EXPECT_FALSE(changes("upper_arm_length", "right_clavicle"));
+  EXPECT_FALSE(changes("thigh_length", "head"));
+  EXPECT_TRUE(changes("trunk_length", "skull_cap"));
+  EXPECT_TRUE(changes("stature", "jaw"));
+}
+
 TEST(ShapeParameters, LetAllGrowWithTheStature) {
   const ShapeParameters parameters = ClothedPerson(1.7, 0.01);
   VectorXd values = VectorXd::Zero(parameters.count());
