@@ -1,6 +1,6 @@
 """A real man as a cloud of several depth cameras, seen from one virtual one: how well the fitted surface explains it.
 
-There are no true joints. The camera looks level from the side from which most of the cloud can be seen.
+There are no true joints. The cloud is mostly a half shell: the camera looks level from the side from which it bulges.
 """
 
 from __future__ import annotations
@@ -26,6 +26,8 @@ _CAMERA = DepthCamera((285.0, 285.0), (159.5, 119.5), (320, 240))
 _DISTANCE_M, _HEIGHT_M = 2.6, 1.0
 _AZIMUTHS = 24
 _SPLAT_PX = 2  # side of the square that a point covers
+_BEND_PX = 4  # to each side of where a row is looked at
+_STEP_MM = 50.0  # larger ones are no one surface
 _EXPLAINED_M = 0.05
 _MOST_POINTS = 4000
 
@@ -66,10 +68,10 @@ def read_pcd(path: Path) -> np.ndarray:
 
 
 def best_view(cloud: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Rotation and translation, camera_from_world, of the level camera that sees most."""
+    """Rotation and translation, camera_from_world, of the level camera that sees most of the outside."""
     middle = np.median(cloud, axis=0)
     views = [_view(middle, azimuth) for azimuth in np.linspace(0, 2 * np.pi, _AZIMUTHS, endpoint=False)]
-    return max(views, key=lambda view: _seen(cloud, *view))
+    return max(views, key=lambda view: _outside(render_mm(cloud, *view)))
 
 
 def render_mm(cloud: np.ndarray, turn: np.ndarray, shift: np.ndarray) -> np.ndarray:
@@ -101,14 +103,13 @@ def _view(middle: np.ndarray, azimuth: float) -> tuple[np.ndarray, np.ndarray]:
     return turn, -turn @ place
 
 
-def _seen(cloud: np.ndarray, turn: np.ndarray, shift: np.ndarray) -> int:
-    """How many points are the nearest ones, within 3 cm, where they are seen."""
-    depth = render_mm(cloud, turn, shift)
-    points = cloud @ turn.T + shift
-    u, v = np.floor(_CAMERA.pixels(points) + 0.5).astype(int).T
-    width, height = _CAMERA.size_px
-    is_inside = (u >= 0) & (u < width) & (v >= 0) & (v < height)
-    return int((1000 * points[is_inside, 2] - depth[v[is_inside], u[is_inside]] < 30).sum())
+def _outside(depth_mm: np.ndarray) -> int:
+    """Pixels where rows bulge towards the camera, less those where they are hollow: a shell seen from within is."""
+    rows = np.where(depth_mm > 0, depth_mm.astype(float), np.nan)
+    left, middle, right = (rows[:, i:i - 2 * _BEND_PX or None] for i in (0, _BEND_PX, 2 * _BEND_PX))
+    is_one_surface = (np.abs(left - middle) < _STEP_MM) & (np.abs(right - middle) < _STEP_MM)
+    bend = np.sign(left + right - 2 * middle)
+    return int(bend[is_one_surface].sum())
 
 
 def _distances(messages: list[tuple[str, Any]], depths: list[np.ndarray]) -> list[np.ndarray]:

@@ -28,7 +28,7 @@ from deixis_frontend.layout import Layout
 NAME = "rgbd_upperbody_d435"
 _FPS = 10.0
 _LEAST_SCORE = 0.3  # of a network's joint
-_GATE_PX = 120.0  # between the shoulders' middles of who stands for the man, and his
+_GATE_PX = 120.0  # median over the joints of who stands for the man
 _GOOD_PX = 20.0
 _JOINTS = [f"{side}_{joint}" for joint in ("shoulder", "elbow", "wrist", "hip") for side in ("right", "left")]
 
@@ -69,10 +69,12 @@ def errors_px(true_px: np.ndarray, found: dict[int, FoundFrame], camera: DepthCa
     errors = np.where(np.isnan(true_px[:, :, 0]), np.nan, np.inf)
     columns = [INDEX[("r_" if name.startswith("right") else "l_") + name.split("_")[1]] for name in _JOINTS]
     for k, true in enumerate(true_px):
-        seen = [camera.pixels(p.joints_m[columns]) for p in (found[k].people if k in found else [])]
-        distances = [float(np.linalg.norm(places[:2].mean(axis=0) - true[:2].mean(axis=0))) for places in seen]
-        if distances and min(distances) < _GATE_PX:
-            errors[k] = np.linalg.norm(seen[int(np.argmin(distances))] - true, axis=1)
+        is_known = ~np.isnan(true[:, 0])
+        people = found[k].people if k in found and is_known.any() else []
+        of_people = [np.linalg.norm(camera.pixels(p.joints_m[columns]) - true, axis=1) for p in people]
+        medians = [float(np.median(of_person[is_known])) for of_person in of_people]
+        if medians and min(medians) < _GATE_PX:
+            errors[k] = of_people[int(np.argmin(medians))]
     return errors
 
 
