@@ -99,7 +99,10 @@ const body_model::BodyPoses& PoseFitter::Track(const images::DepthImage& image,
 void PoseFitter::LetGo() {
   people_.erase(std::remove_if(people_.begin(), people_.end(),
                                [this](const auto& person) {
-                                 return person->unseen_s > config_.tracks.hidden_time_s;
+                                 const Hypothesis& best = person->hypotheses.front();
+                                 return person->unseen_s > config_.tracks.hidden_time_s ||
+                                        (best.age_s > 2.0 * config_.start.settle_s &&
+                                         best.mean_score > config_.start.worst_score);
                                }),
                 people_.end());
 }
@@ -131,7 +134,8 @@ void PoseFitter::Follow(Person& person, double seconds) {
   }
   std::vector<const BodyPose*> poses;
   for (const BodyPose& pose : predicted) poses.push_back(&pose);
-  person.evidence.Gather(view_, person.fitter.kinematics(), poses, floor_, {&taken_});
+  person.evidence.Gather(view_, person.fitter.kinematics(), poses, floor_, {&taken_},
+                         config_.evidence.gate_m);
   if (person.evidence.points().count() < 50) {
     person.unseen_s += seconds;
     return;
@@ -182,11 +186,16 @@ double PoseFitter::FacingPenalty(const BodyPose& pose) const {
 }
 
 void PoseFitter::Take(const Person& person) {
+  const auto owner = static_cast<std::uint8_t>(
+      1 + std::min<std::ptrdiff_t>(
+              254, std::find_if(people_.begin(), people_.end(), [&person](const auto& other) {
+                     return other.get() == &person;
+                   }) - people_.begin()));
   const cv::Mat& body = person.evidence.body();
   for (int v = 0; v < body.rows; ++v) {
     const auto* row = body.ptr<std::uint8_t>(v);
     for (int u = 0; u < body.cols; ++u) {
-      if (row[u] != 0) taken_[static_cast<std::size_t>(v * body.cols + u)] = 1;
+      if (row[u] != 0) taken_[static_cast<std::size_t>(v * body.cols + u)] = owner;
     }
   }
 }
@@ -196,11 +205,14 @@ void PoseFitter::FindNew(const std::vector<std::uint8_t>& is_sound, double time_
     return;
   last_try_s_ = time_s;
   for (const PersonRegion& region : finder_.Find(view_, is_sound, floor_).regions) {
-    if (IsTaken(region)) continue;
+    if (IsTaken(region)) {
+      Doubt(region);
+      continue;
+    }
     auto person = Start(region);
     if (!person) continue;
-    Take(*person);
     people_.push_back(std::move(person));
+    Take(*people_.back());
   }
 }
 
@@ -213,40 +225,101 @@ bool PoseFitter::IsTaken(const PersonRegion& region) const {
   return taken > config_.start.most_taken * region.pixel_count;
 }
 
-std::unique_ptr<PoseFitter::Person> PoseFitter::Start(const PersonRegion& region) {
-  start_evidence_.GatherRegion(view_, finder_.regions().labels, region.label, floor_);
-  PoseFitterConfig config = config_;
-  config.fit.iterations = config_.start.iterations;
-  config.fit.first_scale_m = config_.start.first_scale_m;
-  config.fit.first_reach_m = config_.start.first_reach_m;
-  BodyFitter fitter(config.fit, model_);
+// The best start that faces the camera and the best one that does not, as far as they are good.
+std::vector<PoseFitter::Hypothesis> PoseFitter::StartsIn(const PersonRegion& region,
+                                                         BodyFitter& fitter,
+                                                         BodyEvidence& evidence) {
+  BodyFitterConfig coarse = config_.fit;
+  coarse.iterations = config_.start.iterations;
+  coarse.first_scale_m = config_.start.first_scale_m;
+  coarse.first_reach_m = config_.start.first_reach_m;
+  coarse.most_rest_rad = config_.start.rest_rad;
+  coarse.upright_rad = config_.start.upright_rad;
+  BodyFitter coarse_fitter(coarse, model_);
   std::optional<Hypothesis> facing, turned;
-  for (BodyPose pose : StartPoses(model_, region, floor_)) {
-    const FitResult result = fitter.Fit(start_evidence_, floor_, pose, std::nullopt, pose);
+  const Vector3d top_m =
+      TopOf(view_, finder_.regions().labels, region, floor_, config_.start.head_m);
+  for (BodyPose pose : StartPoses(model_, top_m, floor_)) {
+    const BodyPose guess = pose;
+    start_evidence_.Gather(view_, coarse_fitter.kinematics(), {&guess}, floor_, {},
+                           config_.start.gate_m);
+    coarse_fitter.Fit(start_evidence_, floor_, pose, std::nullopt, pose);
+    const BodyPose near = pose;
+    evidence.Gather(view_, fitter.kinematics(), {&near}, floor_, {}, config_.evidence.gate_m);
+    Hypothesis hypothesis;
+    hypothesis.result = fitter.Fit(evidence, floor_, pose, std::nullopt, pose);
+    hypothesis.information = fitter.information();
+    hypothesis.mean_score = hypothesis.result.score + FacingPenalty(pose);
+    hypothesis.pose = pose;
+    hypothesis.rates_rad_per_s.setZero(model_.angle_count());
+    if (std::getenv("DBG")) {
+      const auto& result = hypothesis.result;
+      double fr = 0, sa = 0;
+      for (auto& l : result.limbs) {
+        fr += l.view.free;
+        sa += l.view.samples;
+      }
+      const Vector3d f = pose.frame_from_root.rotation * Vector3d::UnitX();
+      const Vector3d t = pose.frame_from_root.translation_m;
+      fprintf(stderr,
+              "hyp region at %.1f %.1f %.1f top %.2f px %d like %.2f root %.1f %.1f %.1f fwd %.2f "
+              "%.2f %.2f score %.3f free %.3f expl %.3f trunk %.2f\n",
+              region.centroid_m.x(), region.centroid_m.y(), region.centroid_m.z(), region.top_m,
+              region.pixel_count, region.likeness, t.x(), t.y(), t.z(), f.x(), f.y(), f.z(),
+              result.score, fr / sa, result.explained, result.trunk_seen);
+    }
+    if (hypothesis.mean_score > config_.start.worst_score ||
+        hypothesis.result.trunk_seen < config_.start.least_trunk) {
+      continue;
+    }
     const bool faces = FacingPenalty(pose) < 0.5 * config_.start.facing_away;
     std::optional<Hypothesis>& best = faces ? facing : turned;
-    const double score = result.score + FacingPenalty(pose);
-    if (best && best->mean_score <= score) continue;
-    best.emplace();
-    best->pose = pose;
-    best->result = result;
-    best->mean_score = score;
+    if (!best || hypothesis.mean_score < best->mean_score) best = hypothesis;
   }
+  std::vector<Hypothesis> starts;
+  for (const auto* best : {&facing, &turned}) {
+    if (*best) starts.push_back(**best);
+  }
+  return starts;
+}
+
+std::unique_ptr<PoseFitter::Person> PoseFitter::Start(const PersonRegion& region) {
   auto person = std::make_unique<Person>(config_, model_);
-  for (const auto& best : {facing, turned}) {
-    if (!best || best->mean_score > config_.start.worst_score) continue;
-    Hypothesis hypothesis = *best;
-    hypothesis.result =
-        person->fitter.Fit(start_evidence_, floor_, hypothesis.pose, std::nullopt, hypothesis.pose);
-    hypothesis.information = person->fitter.information();
-    hypothesis.mean_score = hypothesis.result.score + FacingPenalty(hypothesis.pose);
-    hypothesis.rates_rad_per_s.setZero(model_.angle_count());
-    person->hypotheses.push_back(hypothesis);
-  }
+  person->hypotheses = StartsIn(region, person->fitter, person->evidence);
   if (person->hypotheses.empty()) return nullptr;
-  person->evidence = start_evidence_;
+  std::vector<const BodyPose*> poses;
+  for (const Hypothesis& hypothesis : person->hypotheses) poses.push_back(&hypothesis.pose);
+  person->evidence.Gather(view_, person->fitter.kinematics(), poses, floor_, {&taken_},
+                          config_.evidence.gate_m);
   Choose(*person);
   return person;
+}
+
+// Where a person is badly explained, what a start would find there becomes a rival.
+void PoseFitter::Doubt(const PersonRegion& region) {
+  Person* person = OwnerOf(region);
+  if (person == nullptr || person->hypotheses.size() > 1 ||
+      person->hypotheses.front().mean_score < config_.start.doubtful_score) {
+    return;
+  }
+  BodyEvidence evidence(config_.evidence);
+  for (const Hypothesis& start : StartsIn(region, person->fitter, evidence)) {
+    if (start.mean_score < person->hypotheses.front().mean_score) {
+      person->hypotheses.push_back(start);
+    }
+  }
+}
+
+PoseFitter::Person* PoseFitter::OwnerOf(const PersonRegion& region) {
+  std::vector<int> counts(people_.size() + 1, 0);
+  const auto& labels = finder_.regions().labels;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == region.label) ++counts[std::min<std::size_t>(taken_[i], people_.size())];
+  }
+  counts[0] = 0;
+  const auto most = std::max_element(counts.begin(), counts.end());
+  if (*most == 0) return nullptr;
+  return people_[static_cast<std::size_t>(most - counts.begin() - 1)].get();
 }
 
 std::vector<body_model::PersonModel> PoseFitter::Models() const {

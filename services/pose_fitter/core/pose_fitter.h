@@ -19,23 +19,35 @@
 namespace deixis::pose_fitter {
 
 struct StartConfig {
-  int iterations = 20;         ///< Of the fit of each start pose.
-  double first_scale_m = 0.2;  ///< Of its robust weights, in the first round.
-  double first_reach_m = 0.5;  ///< Points farther from all limbs do not count, in the first round.
-  double worst_score = 0.8;    ///< Fits that are worse are nobody.
-  double facing_away = 0.04;   ///< Added to the score of who turns the back: robots are looked at.
-  double settle_s = 0.5;       ///< Time that rival poses have to prove themselves.
-  double again_s = 0.3;        ///< Between two tries.
-  double most_taken = 0.3;     ///< Share of a region that those who are followed may have of it.
+  int iterations = 12;          ///< Of the fit of each start pose.
+  double first_scale_m = 0.1;   ///< Of its robust weights, in the first round.
+  double first_reach_m = 0.25;  ///< Points farther from all limbs do not count, in the first round.
+  double rest_rad = 0.5;        ///< Spread of all joints about the start pose, in its first fit.
+  double upright_rad = 0.25;    ///< Of the base limb about the vertical, likewise.
+  double worst_score = 0.6;     ///< Fits that are worse are nobody.
+  double doubtful_score = 0.4;  ///< From here on other poses of the person are tried.
+  double least_trunk = 0.5;     ///< Share of trunk and head that must be seen.
+  double facing_away = 0.04;    ///< Added to the score of who turns the back: robots are looked at.
+  double settle_s = 0.5;        ///< Time that rival poses have to prove themselves.
+  double gate_m = 0.2;          ///< Pixels this near to a start pose may belong to the person.
+  double head_m = 0.25;         ///< Height of the part of a region that is taken for the head.
+  double again_s = 0.3;         ///< Between two tries.
+  double most_taken = 0.3;      ///< Share of a region that those who are followed may have of it.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
     v("iterations", iterations);
     v("first_scale_m", first_scale_m);
     v("first_reach_m", first_reach_m);
+    v("rest_rad", rest_rad);
+    v("upright_rad", upright_rad);
     v("worst_score", worst_score);
+    v("doubtful_score", doubtful_score);
+    v("least_trunk", least_trunk);
     v("facing_away", facing_away);
     v("settle_s", settle_s);
+    v("gate_m", gate_m);
+    v("head_m", head_m);
     v("again_s", again_s);
     v("most_taken", most_taken);
   }
@@ -43,7 +55,7 @@ struct StartConfig {
 };
 
 struct PoseFitterConfig {
-  std::string body_model = "body_models/whole_body_detailed.yaml";  ///< The tree of limbs.
+  std::string body_model = "body_models/clothed_body.yaml";  ///< The tree of limbs.
   double stature_m = 0.0;           ///< Of the people who come; 0 = not known.
   double stature_sigma_m = 0.01;    ///< Its spread.
   double velocity_share = 0.6;      ///< Of the motion that goes on from image to image.
@@ -106,6 +118,10 @@ class PoseFitter {
   void Number(double time_s);
   void LetGo();
   std::unique_ptr<Person> Start(const PersonRegion& region);
+  std::vector<Hypothesis> StartsIn(const PersonRegion& region, BodyFitter& fitter,
+                                   BodyEvidence& evidence);
+  void Doubt(const PersonRegion& region);
+  Person* OwnerOf(const PersonRegion& region);
   void Report(const images::DepthImage& image);
 
   PoseFitterConfig config_;
@@ -118,7 +134,7 @@ class PoseFitter {
   PeopleFinder finder_;
   PersonTracks tracks_;
   std::optional<double> last_try_s_;
-  std::vector<std::uint8_t> taken_;
+  std::vector<std::uint8_t> taken_;  ///< Per pixel: 0 = nobody's, else 1 + the person's place.
   std::vector<std::unique_ptr<Person>> people_;
   BodyEvidence start_evidence_;
   std::optional<Timestamp> last_time_;

@@ -74,7 +74,7 @@ TEST_F(PeopleFinderTest, FindsPeopleOfAllSizesNearAndFar) {
       Room room;
       room.AddStanding(0.0, y, 1, stature);
       EXPECT_EQ(Find(room).regions.size(), 1U) << stature << ' ' << y;
-      EXPECT_GT(Recall(1), 0.95) << stature << ' ' << y;
+      EXPECT_GT(Recall(1), 0.9) << stature << ' ' << y;
     }
   }
 }

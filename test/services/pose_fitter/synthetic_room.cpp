@@ -127,7 +127,7 @@ void Room::AddTable(double x_m, double y_m, double half_x_m, double half_y_m, do
 
 body_model::Floor Room::Floor() const { return {CameraFromRoom(*this).col(2), camera_height_m}; }
 
-Picture Look(const Room& room, int width_px, double noise_per_square_m) {
+Picture Look(const Room& room, int width_px, double noise_per_square_m, std::uint64_t seed) {
   Picture picture;
   const int height_px = std::max(1, width_px * 3 / 4);
   const double focal_px = 0.5 * width_px / std::tan(M_PI / 6.0);
@@ -139,7 +139,7 @@ Picture Look(const Room& room, int width_px, double noise_per_square_m) {
   picture.depth_mm = cv::Mat(height_px, width_px, CV_16UC1, cv::Scalar(0));
   picture.owner = cv::Mat(height_px, width_px, CV_8UC1, cv::Scalar(0));
   const Eigen::Matrix3d room_from_camera = CameraFromRoom(room).transpose();
-  const filtering::CounterRandom random(1, 2);
+  const filtering::CounterRandom random(seed, 2);
   std::uint64_t pixel = 0;
   for (int v = 0; v < height_px; ++v) {
     for (int u = 0; u < width_px; ++u, ++pixel) {

@@ -54,7 +54,8 @@ struct Picture {
   cv::Mat owner;  ///< CV_8UC1.
 };
 
-/// 60 degrees wide; `noise_per_square_m` as DepthNoise has it, the same noise at every call.
-Picture Look(const Room& room, int width_px = 320, double noise_per_square_m = 0.001);
+/// 60 degrees wide; `noise_per_square_m` as DepthNoise has it, of the same seed the same noise.
+Picture Look(const Room& room, int width_px = 320, double noise_per_square_m = 0.001,
+             std::uint64_t seed = 1);
 
 }  // namespace deixis::pose_fitter::test

@@ -44,11 +44,7 @@ class BodyEvidence {
   /// `view` must outlive what is gathered.
   void Gather(const DepthView& view, body_model::Kinematics& kinematics,
               const std::vector<const body_model::BodyPose*>& poses,
-              const std::optional<body_model::Floor>& floor, const BodyMask& mask);
-
-  /// Gathers it from the pixels that a region holds, before any pose is known.
-  void GatherRegion(const DepthView& view, const std::vector<std::uint8_t>& labels, int label,
-                    const std::optional<body_model::Floor>& floor);
+              const std::optional<body_model::Floor>& floor, const BodyMask& mask, double gate_m);
 
   const DepthView& view() const { return *view_; }
   const BodyPoints& points() const { return points_; }
@@ -61,8 +57,9 @@ class BodyEvidence {
   const cv::Mat& body() const { return body_; }  ///< CV_8UC1, 1 = the body's.
 
  private:
-  void MarkBody(const body_model::Kinematics& kinematics, const BodyMask& mask);
-  void MarkLimb(const body_model::Kinematics& kinematics, int limb, const BodyMask& mask);
+  void MarkBody(const body_model::Kinematics& kinematics, const BodyMask& mask, double gate_m);
+  void MarkLimb(const body_model::Kinematics& kinematics, int limb, const BodyMask& mask,
+                double gate_m);
   void RemoveIslands();
   void MeasureClearance(double root_z_m);
   void TakePoints();

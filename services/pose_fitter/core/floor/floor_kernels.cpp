@@ -1,5 +1,6 @@
 #include "services/pose_fitter/core/floor/floor_kernels.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/kernels/kernel.h"
@@ -37,9 +38,11 @@ DEIXIS_KERNEL FloorSupport SupportOf(const FloorSamples& samples, const InverseP
   for (int i = 0; i < samples.count; ++i) {
     const float error = ErrorOf(samples, plane, i);
     const float near = ToleranceOf(samples, plane, tolerance, i);
-    const float area = 1.0F / (samples.inverse_z[i] * samples.inverse_z[i]);
+    // What lies below is seen through the plane and counts as that part of it.
+    const float nearest = std::max(samples.inverse_z[i], samples.inverse_z[i] - error);
+    const float area = 1.0F / (nearest * nearest);
     on += std::abs(error) < near ? area : 0.0F;
-    below += error < -2.0F * near ? area : 0.0F;
+    below += error < -near ? area : 0.0F;
   }
   return {on, below};
 }

@@ -7,21 +7,29 @@
 #include <cmath>
 
 #include "common/filtering/random.h"
+#include "services/pose_fitter/core/depth/sound_depth.h"
 
 namespace deixis::pose_fitter {
 namespace {
 
-constexpr int kColumns = 80;  // Of the sampled grid.
-constexpr int kHypotheses = 160;
+constexpr int kColumns = 80;      // Of the sampled grid.
+constexpr int kDraws = 1200;      // Of three samples; most are no floor at all,
+constexpr int kHypotheses = 200;  // so many that may be one are weighed.
 constexpr int kFinalists = 6;
 constexpr int kRefinements = 3;
+constexpr std::uint64_t kSeed = 0x5EA2C4F1002;
+constexpr int kSmooth_px = 2;
+constexpr double kSmoothSigmas = 2.0;
+constexpr double kSmoothSlope = 2.0;
+constexpr int kAttempts = 8;
+constexpr double kLeastSpread = 1e-5;  // Of three rays, else they lie in a line.
 constexpr double kBelowPenalty = 4.0;
 constexpr int kLeastSamples = 40;
 constexpr double kSameTilt_rad = 0.008;  // Beyond these the camera has moved.
 constexpr double kSameHeight_m = 0.015;
 constexpr FloorTolerance kSearchTolerance = {2.5F, 0.03F};
 constexpr FloorTolerance kTrackTolerance = {3.0F, 0.06F};
-constexpr FloorTolerance kFineTolerance = {2.5F, 0.015F};
+constexpr FloorTolerance kFineTolerance = {1.5F, 0.01F};
 
 double Radians(double degrees) { return degrees * M_PI / 180.0; }
 
@@ -97,7 +105,7 @@ const std::optional<body_model::Floor>& FloorTracker::Update(
   } else if (slopes_ && time_s - seen_time_s_ > config_.hold_time_s) {
     slopes_.reset();
   }
-  floor_ = slopes_ ? std::optional(FloorOf(*slopes_)) : std::nullopt;
+  floor_ = slopes_ ? std::optional(FloorOf(*slopes_)) : known_;
   time_s_ = time_s;
   has_time_ = true;
   return floor_;
@@ -107,6 +115,23 @@ FloorSamples FloorTracker::samples() const {
   return {ray_x_.data(), ray_y_.data(), inverse_z_.data(), sigma_.data(),
           static_cast<int>(ray_x_.size())};
 }
+
+namespace {
+
+/// Whether what lies around a pixel goes on as a plane does: stereo without texture does not.
+bool IsSmooth(const DepthView& depth, int u, int v, const StepLimit& limit) {
+  const int d = kSmooth_px;
+  if (u < d || v < d || u >= depth.width_px() - d || v >= depth.height_px() - d) return false;
+  const float z = depth.z_m(u, v);
+  const float most = limit.fixed_m + z * (limit.per_m + z * limit.per_square_m);
+  const auto bends = [&](float one, float other) {
+    return !(one > 0.0F && other > 0.0F && std::abs(one + other - 2.0F * z) < most);
+  };
+  return !bends(depth.z_m(u - d, v), depth.z_m(u + d, v)) &&
+         !bends(depth.z_m(u, v - d), depth.z_m(u, v + d));
+}
+
+}  // namespace
 
 void FloorTracker::TakeSamples(const DepthView& depth, const std::vector<std::uint8_t>& is_sound) {
   const DepthCamera& camera = depth.camera();
@@ -120,6 +145,7 @@ void FloorTracker::TakeSamples(const DepthView& depth, const std::vector<std::ui
   }
   grid_.assign(nodes, -1);
   sample_area_ = step * step / camera.focal_px.prod();
+  const StepLimit limit = StepLimitOf(camera, kSmoothSigmas, kSmoothSlope);
   const auto farthest = static_cast<float>(config_.farthest_m);
   for (int row = 0; row < grid_rows_; ++row) {
     const int v = row * step;
@@ -128,7 +154,7 @@ void FloorTracker::TakeSamples(const DepthView& depth, const std::vector<std::ui
       const int u = column * step;
       const float z = depth.z_m(u, v);
       const auto pixel = static_cast<std::size_t>(v * camera.width_px + u);
-      if (is_sound[pixel] == 0 || z > farthest) continue;
+      if (is_sound[pixel] == 0 || z > farthest || !IsSmooth(depth, u, v, limit)) continue;
       grid_[static_cast<std::size_t>(row * grid_columns_ + column)] =
           static_cast<int>(ray_x_.size());
       ray_x_.push_back(static_cast<float>((u - camera.centre_px.x()) / camera.focal_px.x()));
@@ -146,9 +172,11 @@ std::optional<FloorTracker::Slopes> FloorTracker::Search() {
     Slopes slopes;
   };
   std::array<Finalist, kFinalists> best;
-  for (std::uint64_t i = 0; i < kHypotheses; ++i) {
+  int weighed = 0;
+  for (std::uint64_t i = 0; i < kDraws && weighed < kHypotheses; ++i) {
     const auto slopes = i == 0 && known_ ? std::optional(SlopesOf(*known_)) : Hypothesis(i);
     if (!slopes || !MayBeFloor(*slopes)) continue;
+    ++weighed;
     const double score = Score(*slopes);
     if (score <= best.back().score) continue;
     best.back() = {score, *slopes};
@@ -171,38 +199,40 @@ std::optional<FloorTracker::Slopes> FloorTracker::Search() {
   return winner;
 }
 
-/// Through three samples that lie near one another in the image, so that one surface is likely.
+/// Through three samples that lie near one another in the image, so that one surface is likely; the
+/// first rather low in it, where floors are.
 std::optional<FloorTracker::Slopes> FloorTracker::Hypothesis(std::uint64_t number) const {
-  const filtering::CounterRandom random(0x7E57F100, number);
-  const auto pick = [&](std::uint64_t counter, int low, int high) {
+  const filtering::CounterRandom random(kSeed, number);
+  const auto pick = [&random](std::uint64_t counter, int low, int high) {
     return low + static_cast<int>(random.Uniform(counter) * static_cast<float>(high - low));
   };
-  const int reach = std::max(2, grid_columns_ / 5);
+  const int reach = std::max(2, grid_columns_ >> (2 + number % 3));
+  const int column = pick(0, 0, grid_columns_);
+  const int row = std::max(pick(1, 0, grid_rows_), pick(2, 0, grid_rows_));
+  const int first = SampleAt(column, row);
+  if (first < 0) return std::nullopt;
+  std::array<int, 3> chosen = {first, -1, -1};
+  for (std::uint64_t i = 1, counter = 3; i < 3; ++i) {
+    for (int attempt = 0; attempt < kAttempts && chosen[i] < 0; ++attempt, counter += 2) {
+      chosen[i] = SampleAt(column + pick(counter, -reach, reach + 1),
+                           row + pick(counter + 1, -reach, reach + 1));
+    }
+    if (chosen[i] < 0) return std::nullopt;
+  }
   Eigen::Matrix3d rays;
   Eigen::Vector3d inverse;
-  int column = 0, row = 0;
-  std::uint64_t counter = 0;
   for (int i = 0; i < 3; ++i) {
-    int sample = -1;
-    for (int attempt = 0; attempt < 8 && sample < 0; ++attempt) {
-      const int c =
-          i == 0 ? pick(counter++, 0, grid_columns_) : column + pick(counter++, -reach, reach + 1);
-      const int r =
-          i == 0 ? pick(counter++, 0, grid_rows_) : row + pick(counter++, -reach, reach + 1);
-      if (c < 0 || r < 0 || c >= grid_columns_ || r >= grid_rows_) continue;
-      sample = grid_[static_cast<std::size_t>(r * grid_columns_ + c)];
-      if (i == 0) {
-        column = c;
-        row = r;
-      }
-    }
-    if (sample < 0) return std::nullopt;
-    const auto s = static_cast<std::size_t>(sample);
-    rays.row(i) << static_cast<double>(ray_x_[s]), static_cast<double>(ray_y_[s]), 1.0;
-    inverse[i] = static_cast<double>(inverse_z_[s]);
+    const auto sample = static_cast<std::size_t>(chosen[static_cast<std::size_t>(i)]);
+    rays.row(i) << static_cast<double>(ray_x_[sample]), static_cast<double>(ray_y_[sample]), 1.0;
+    inverse[i] = static_cast<double>(inverse_z_[sample]);
   }
-  if (std::abs(rays.determinant()) < 1e-5) return std::nullopt;
+  if (std::abs(rays.determinant()) < kLeastSpread) return std::nullopt;
   return Slopes(rays.inverse() * inverse);
+}
+
+int FloorTracker::SampleAt(int column, int row) const {
+  if (column < 0 || row < 0 || column >= grid_columns_ || row >= grid_rows_) return -1;
+  return grid_[static_cast<std::size_t>(row * grid_columns_ + column)];
 }
 
 bool FloorTracker::MayBeFloor(const Slopes& slopes) const {
@@ -229,10 +259,10 @@ double FloorTracker::Score(const Slopes& slopes) const {
 /// A pixel of a plane covers z^3 / height of it, of which the kernel takes z^2: what is seen head
 /// on.
 bool FloorTracker::HasSupport(const Slopes& slopes) const {
-  const FloorSupport support = SupportOf(samples(), PlaneOf(slopes), kFineTolerance);
+  const FloorSupport support = SupportOf(samples(), PlaneOf(slopes), kSearchTolerance);
   const double facing = 0.25;  // How much a floor is foreshortened, roughly.
   return static_cast<double>(support.on) * sample_area_ > facing * config_.least_area_m2 &&
-         support.on > 2.0F * support.below;
+         support.on > 4.0F * support.below;
 }
 
 std::optional<FloorTracker::Slopes> FloorTracker::Refined(Slopes slopes,

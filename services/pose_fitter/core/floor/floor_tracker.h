@@ -49,8 +49,9 @@ class FloorTracker {
   explicit FloorTracker(const FloorTrackerConfig& config = {});
 
   /// `time_s`: of the image, increasing; a step back starts anew. `is_sound`: see SoundDepth.
-  /// `known`: where mount or calibration says that the floor is, in the camera's frame. The floor
-  /// is in the camera's optical frame; nothing when none was seen lately.
+  /// `known`: where mount or calibration says that the floor is, in the camera's frame: what is
+  /// seen there is heeded, and where nothing is, it is the floor. The floor is in the camera's
+  /// optical frame; nothing when none was seen lately.
   const std::optional<body_model::Floor>& Update(
       const DepthView& depth, const std::vector<std::uint8_t>& is_sound, double time_s,
       const std::optional<body_model::Floor>& known = {});
@@ -68,6 +69,7 @@ class FloorTracker {
   void TakeSamples(const DepthView& depth, const std::vector<std::uint8_t>& is_sound);
   std::optional<Slopes> Search();
   std::optional<Slopes> Hypothesis(std::uint64_t number) const;
+  int SampleAt(int column, int row) const;  ///< -1 = none.
   std::optional<Slopes> Refined(Slopes slopes, Equations& equations) const;
   bool MayBeFloor(const Slopes& slopes) const;
   bool HasSupport(const Slopes& slopes) const;

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "common/kernels/kernel.h"
 
 namespace deixis::pose_fitter {
 namespace {
+
+constexpr float kLeastLean = 0.07F;  // What is seen along itself shows no area.
 
 [[gnu::always_inline]] inline int IsInside(float z, int u, std::uint8_t is_sound,
                                            const RowGate& gate) {
@@ -21,14 +24,6 @@ namespace {
 [[gnu::always_inline]] inline int IsOneSurface(float z, float other, StepLimit step) {
   const float limit = step.fixed_m + z * (step.per_m + z * step.per_square_m);
   return static_cast<int>(std::abs(z - other) < limit);
-}
-
-[[gnu::always_inline]] inline int IsOnTop(float height, const Tops& tops) {
-  int is_on = 0;
-  for (const float top : tops.height_m) {
-    is_on |= static_cast<int>(std::abs(height - top) < tops.tolerance_m);
-  }
-  return is_on;
 }
 
 }  // namespace
@@ -58,31 +53,54 @@ DEIXIS_KERNEL void MarkLevelRow(const float* above_m, const float* row_m, const 
 
 void AddLevelArea(const float* row_m, const std::uint8_t* is_level, int width, const RowGate& gate,
                   float* area_per_cm, int bin_count) {
+  std::uint64_t eight = 0;
   for (int u = 0; u < width; ++u) {
+    if (u % 8 == 0 && u + 8 <= width) {
+      std::memcpy(&eight, is_level + u, 8);
+      if (eight == 0) {
+        u += 7;
+        continue;
+      }
+    }
     if (is_level[u] == 0) continue;
     const float z = row_m[u];
     const float lean = gate.lean + gate.lean_per_px * static_cast<float>(u);
     const auto bin = static_cast<int>(100.0F * (z * lean + gate.camera_height_m));
-    if (bin < 0 || bin >= bin_count) continue;
-    area_per_cm[bin] += z * z / std::max(std::abs(lean), 0.05F);
+    if (bin < 0 || bin >= bin_count || std::abs(lean) < kLeastLean) continue;
+    area_per_cm[bin] += z * z / std::abs(lean);
   }
 }
 
-DEIXIS_KERNEL void LinkRow(const float* above_m, const float* row_m, const std::uint8_t* is_sound,
-                           const std::uint8_t* is_level, const std::uint8_t* above_links, int width,
-                           const RowGate& gate, const Tops& tops, std::uint8_t* links) {
-  for (int u = 0; u < width; ++u) {
-    const float lean = gate.lean + gate.lean_per_px * static_cast<float>(u);
-    const int is_top = is_level[u] & IsOnTop(row_m[u] * lean + gate.camera_height_m, tops);
-    links[u] = static_cast<std::uint8_t>(IsInside(row_m[u], u, is_sound[u], gate) & ~is_top);
+DEIXIS_KERNEL void GateRow(const float* __restrict row_m, const std::uint8_t* __restrict is_sound,
+                           int width, const RowGate& gate, const Tops& tops,
+                           std::uint8_t* __restrict is_level, std::uint8_t* __restrict is_inside) {
+  constexpr std::uint8_t kOnTop = 2;
+  for (int i = 0; i < tops.count; ++i) {
+    const float top = tops.height_m[i] - gate.camera_height_m;
+    for (int u = 0; u < width; ++u) {
+      const float lean = gate.lean + gate.lean_per_px * static_cast<float>(u);
+      const int is_on = static_cast<int>(std::abs(row_m[u] * lean - top) < tops.tolerance_m);
+      is_level[u] = static_cast<std::uint8_t>(is_level[u] | (is_level[u] & is_on) * kOnTop);
+    }
   }
   for (int u = 0; u < width; ++u) {
-    const int joins = links[u] & above_links[u] & IsOneSurface(row_m[u], above_m[u], gate.step);
-    links[u] = static_cast<std::uint8_t>(links[u] | (joins & 1) << 2);
+    is_level[u] = static_cast<std::uint8_t>(is_level[u] >> 1);
+    is_inside[u] =
+        static_cast<std::uint8_t>(IsInside(row_m[u], u, is_sound[u], gate) & (1 - is_level[u]));
   }
-  for (int u = width - 1; u > 0; --u) {
-    const int joins = links[u] & links[u - 1] & IsOneSurface(row_m[u], row_m[u - 1], gate.step);
-    links[u] = static_cast<std::uint8_t>(links[u] | (joins & 1) << 1);
+}
+
+DEIXIS_KERNEL void LinkRow(const float* __restrict above_m, const float* __restrict row_m,
+                           const std::uint8_t* __restrict above_inside,
+                           const std::uint8_t* __restrict is_inside, int width, StepLimit step,
+                           std::uint8_t* __restrict links) {
+  for (int u = 0; u < width; ++u) {
+    const int joins = is_inside[u] & above_inside[u] & IsOneSurface(row_m[u], above_m[u], step);
+    links[u] = static_cast<std::uint8_t>(is_inside[u] | (joins << 2));
+  }
+  for (int u = 1; u < width; ++u) {
+    const int joins = is_inside[u] & is_inside[u - 1] & IsOneSurface(row_m[u], row_m[u - 1], step);
+    links[u] = static_cast<std::uint8_t>(links[u] | (joins << 1));
   }
 }
 

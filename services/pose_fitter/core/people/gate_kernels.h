@@ -26,7 +26,7 @@ struct RowGate {
   StepLimit step;
 };
 
-/// Levels of table tops, seats, beds: pixels on them are not inside.
+/// Heights of table tops, seats, beds: level pixels there are not inside.
 struct Tops {
   static constexpr int kMost = 6;
   float height_m[kMost] = {};
@@ -46,10 +46,14 @@ void MarkLevelRow(const float* above_m, const float* row_m, const float* below_m
 void AddLevelArea(const float* row_m, const std::uint8_t* is_level, int width, const RowGate& gate,
                   float* area_per_cm, int bin_count);
 
-/// Fills `links` of a row from its depths and those above; `above_links` of the first row are
+/// Leaves in `is_level` those pixels that are on one of `tops`, and marks in `is_inside` (0 or 1)
+/// the others of the row that are sound and within range and height.
+void GateRow(const float* row_m, const std::uint8_t* is_sound, int width, const RowGate& gate,
+             const Tops& tops, std::uint8_t* is_level, std::uint8_t* is_inside);
+
+/// Fills `links` of a row from its depths and those above; `above_inside` of the first row are
 /// zeros.
-void LinkRow(const float* above_m, const float* row_m, const std::uint8_t* is_sound,
-             const std::uint8_t* is_level, const std::uint8_t* above_links, int width,
-             const RowGate& gate, const Tops& tops, std::uint8_t* links);
+void LinkRow(const float* above_m, const float* row_m, const std::uint8_t* above_inside,
+             const std::uint8_t* is_inside, int width, StepLimit step, std::uint8_t* links);
 
 }  // namespace deixis::pose_fitter

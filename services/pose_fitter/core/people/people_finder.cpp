@@ -10,7 +10,7 @@ static_assert(SurfacePieces::kMost < 256, "labels are bytes");
 
 namespace {
 
-constexpr double kHeightSigmas = 2.5;  // Noise of the floor that is cut off with it.
+constexpr double kHeightSigmas = 1.5;  // Noise of the floor that is cut off with it.
 constexpr double kAnyHeight_m = 100.0;
 constexpr int kLevelRows = 60;  // Rows of a picture, over how far apart level pixels are compared.
 constexpr int kTopBins = 140;   // Centimetres: nothing higher is sat or lain on.
@@ -48,7 +48,8 @@ const PeopleRegions& PeopleFinder::Find(const DepthView& depth,
   SetGate(depth.camera());
   FindTops(depth);
   Link(depth, is_sound);
-  pieces_.Find(depth, room_, config_.least_piece_m2, runs_);
+  pieces_.Find(depth, room_, config_.least_piece_m2, config_.shape.largest_area_m2, is_level_,
+               runs_);
   Group(depth);
   Write(depth);
   return regions_;
@@ -98,7 +99,6 @@ void PeopleFinder::FindTops(const DepthView& depth) {
 void PeopleFinder::ChooseTops(const DepthCamera& camera) {
   tops_ = {};
   tops_.tolerance_m = static_cast<float>(config_.top_thickness_m);
-  for (float& height_m : tops_.height_m) height_m = -static_cast<float>(kAnyHeight_m);
   const double least = config_.least_top_m2 * camera.focal_px.prod();
   while (tops_.count < Tops::kMost) {
     int best = 1;
@@ -120,36 +120,42 @@ void PeopleFinder::ChooseTops(const DepthCamera& camera) {
 void PeopleFinder::Link(const DepthView& depth, const std::vector<std::uint8_t>& is_sound) {
   const DepthCamera& camera = depth.camera();
   const auto width = static_cast<std::size_t>(camera.width_px);
-  links_.assign(2 * width, 0);
+  links_.assign(width, 0);
+  is_inside_.assign(2 * width, 0);
   runs_.Start(camera.width_px, camera.height_px);
   for (int v = 0; v < camera.height_px; ++v) {
     const std::size_t row = static_cast<std::size_t>(v) * width;
-    const std::size_t above = v > 0 ? row - width : row;
-    std::uint8_t* links = links_.data() + (v % 2) * camera.width_px;
-    const std::uint8_t* above_links = links_.data() + ((v + 1) % 2) * camera.width_px;
-    LinkRow(depth.z_m().data() + above, depth.z_m().data() + row, is_sound.data() + row,
-            is_level_.data() + row, above_links, camera.width_px, GateOf(camera, v), tops_, links);
-    runs_.AddRow(links);
+    const float* row_m = depth.z_m().data() + row;
+    std::uint8_t* is_inside = is_inside_.data() + (v % 2) * camera.width_px;
+    const std::uint8_t* above_inside = is_inside_.data() + ((v + 1) % 2) * camera.width_px;
+    GateRow(row_m, is_sound.data() + row, camera.width_px, GateOf(camera, v), tops_,
+            is_level_.data() + row, is_inside);
+    LinkRow(v > 0 ? row_m - width : row_m, row_m, above_inside, is_inside, camera.width_px,
+            gate_.step, links_.data());
+    runs_.AddRow(links_.data());
   }
   runs_.Finish();
 }
 
 void PeopleFinder::Group(const DepthView& depth) {
   groups_.Form(config_.shape, pieces_);
-  evidences_.Gather(depth, room_, runs_, groups_.groups(), groups_.shapes());
+  evidences_.Gather(depth, room_, runs_, groups_.group_of_core(), groups_.cores());
 }
 
 void PeopleFinder::Rank() {
   ranked_.clear();
   ranked_.reserve(SurfacePieces::kMost);
-  const auto likeness = [this](int group) {
-    return LikenessOf(evidences_.of(group), groups_.shape(group).highest_m.z() - Ground(group));
-  };
   for (int i = 0; i < groups_.count(); ++i) {
-    if (likeness(i) >= config_.least_likeness) ranked_.push_back(i);
+    if (Likeness(i) >= config_.least_likeness) ranked_.push_back(i);
   }
-  std::sort(ranked_.begin(), ranked_.end(),
-            [&](int a, int b) { return std::pair(-likeness(a), a) < std::pair(-likeness(b), b); });
+  std::sort(ranked_.begin(), ranked_.end(), [this](int a, int b) {
+    return std::pair(-Likeness(a), a) < std::pair(-Likeness(b), b);
+  });
+}
+
+double PeopleFinder::Likeness(int group) const {
+  const SurfaceShape& core = groups_.cores()[static_cast<std::size_t>(group)];
+  return LikenessOf(evidences_.of(group), core, core.highest_m.z() - Ground(group));
 }
 
 double PeopleFinder::Ground(int group) const {
@@ -164,7 +170,7 @@ PersonRegion PeopleFinder::RegionOf(int group) const {
                       (shape.Mean() - Eigen::Vector3d(0.0, 0.0, room_.camera_height_m));
   region.top_m = shape.highest_m.z() - Ground(group);
   region.bottom_m = shape.lowest_m.z() - Ground(group);
-  region.likeness = LikenessOf(evidences_.of(group), region.top_m);
+  region.likeness = Likeness(group);
   return region;
 }
 

@@ -45,7 +45,7 @@ struct PeopleFinderConfig {
   double join_sigmas = 2.0;       ///< noise,
   double join_slope = 4.0;        ///< and how steep a surface may lie, per width of a pixel.
   double least_piece_m2 = 0.002;  ///< Smaller surfaces are no part of anybody.
-  double least_top_m2 = 0.10;     ///< Level surfaces from this size on are tables, seats, beds,
+  double least_top_m2 = 0.08;     ///< Level surfaces from this size on are tables, seats, beds,
   double top_thickness_m = 0.02;  ///< which are so thick at most, to either side.
   double least_likeness = 0.3;    ///< From this on something is taken for a person.
   PersonShapeConfig shape;
@@ -88,6 +88,7 @@ class PeopleFinder {
   void Link(const DepthView& depth, const std::vector<std::uint8_t>& is_sound);
   void Group(const DepthView& depth);
   double Ground(int group) const;
+  double Likeness(int group) const;
   PersonRegion RegionOf(int group) const;
   void Rank();
   void Write(const DepthView& depth);
@@ -97,9 +98,10 @@ class PeopleFinder {
   bool has_floor_ = false;
   RowGate gate_;
   Tops tops_;
-  std::vector<float> level_area_;       ///< Per centimetre above the floor.
-  std::vector<std::uint8_t> is_level_;  ///< Per pixel.
-  std::vector<std::uint8_t> links_;     ///< Of two rows.
+  std::vector<float> level_area_;        ///< Per centimetre above the floor.
+  std::vector<std::uint8_t> is_level_;   ///< Per pixel.
+  std::vector<std::uint8_t> is_inside_;  ///< Of two rows.
+  std::vector<std::uint8_t> links_;      ///< Of one row.
   SurfaceRuns runs_;
   SurfacePieces pieces_;
   PersonGroups groups_;

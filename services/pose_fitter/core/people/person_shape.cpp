@@ -11,7 +11,7 @@ namespace {
 constexpr int kLeastContact = 4;      // Pairs of pixels, below which a contact is chance.
 constexpr double kLimbArea_m2 = 0.2;  // Larger pieces are no limb that hides from its trunk.
 constexpr double kWholePerson_m2 = 0.3;
-constexpr double kApart_m = 0.35;  // Along the floor, between pieces of one person above another.
+constexpr double kApart_m = 0.25;  // Along the floor, between pieces of one person above another.
 
 double AcrossFloor(const SurfaceShape& shape) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
@@ -59,8 +59,8 @@ bool MayBePerson(const PersonShapeConfig& config, const SurfaceShape& shape) {
 
 PersonGroups::PersonGroups() {
   pairs_.reserve(static_cast<std::size_t>(SurfacePieces::kMost * SurfacePieces::kMost));
-  for (auto* shapes : {&joined_, &shapes_}) shapes->reserve(SurfacePieces::kMost);
-  for (auto* numbers : {&roots_, &groups_}) numbers->reserve(SurfacePieces::kMost);
+  for (auto* shapes : {&joined_, &shapes_, &cores_}) shapes->reserve(SurfacePieces::kMost);
+  for (auto* numbers : {&roots_, &groups_, &group_of_core_}) numbers->reserve(SurfacePieces::kMost);
 }
 
 void PersonGroups::Form(const PersonShapeConfig& config, const SurfacePieces& pieces) {
@@ -69,13 +69,13 @@ void PersonGroups::Form(const PersonShapeConfig& config, const SurfacePieces& pi
   roots_.clear();
   for (int i = 0; i < count; ++i) {
     const SurfaceShape& shape = pieces.shape(i);
-    const bool is_room =
-        IsTooLarge(config, shape) || (shape.area_m2 > kLimbArea_m2 && IsFlat(config, shape));
+    const bool is_room = IsTooLarge(config, shape) ||
+                         (shape.area_m2 > kLimbArea_m2 ? IsFlat(config, shape) : pieces.IsAtTop(i));
     joined_.push_back(shape);
     roots_.push_back(is_room ? -1 : i);
   }
   JoinPieces(config, pieces);
-  Number(config, count);
+  Number(config, pieces);
 }
 
 int PersonGroups::Root(int piece) {
@@ -107,8 +107,8 @@ void PersonGroups::JoinPieces(const PersonShapeConfig& config, const SurfacePiec
     return std::tie(left.cost, left.a, left.b) < std::tie(right.cost, right.a, right.b);
   });
   for (const Pair& pair : pairs_) {
-    const int a = Root(pair.a);
-    const int b = Root(pair.b);
+    const int a = std::min(Root(pair.a), Root(pair.b));  // The larger one.
+    const int b = std::max(Root(pair.a), Root(pair.b));
     SurfaceShape& into = joined_[static_cast<std::size_t>(a)];
     const SurfaceShape& from = joined_[static_cast<std::size_t>(b)];
     if (a == b || !MayJoin(config, into, from)) continue;
@@ -126,15 +126,19 @@ bool PersonGroups::MayJoin(const PersonShapeConfig& config, const SurfaceShape& 
   return !IsTooLarge(config, both);
 }
 
-void PersonGroups::Number(const PersonShapeConfig& config, int piece_count) {
+void PersonGroups::Number(const PersonShapeConfig& config, const SurfacePieces& pieces) {
   shapes_.clear();
-  groups_.assign(static_cast<std::size_t>(piece_count), -1);
-  for (int i = 0; i < piece_count; ++i) {
+  cores_.clear();
+  groups_.assign(static_cast<std::size_t>(pieces.count()), -1);
+  group_of_core_.assign(static_cast<std::size_t>(pieces.count()), -1);
+  for (int i = 0; i < pieces.count(); ++i) {
     if (Root(i) != i || !MayBePerson(config, joined_[static_cast<std::size_t>(i)])) continue;
-    for (int piece = 0; piece < piece_count; ++piece) {
+    for (int piece = 0; piece < pieces.count(); ++piece) {
       if (Root(piece) == i) groups_[static_cast<std::size_t>(piece)] = count();
     }
+    group_of_core_[static_cast<std::size_t>(i)] = count();
     shapes_.push_back(joined_[static_cast<std::size_t>(i)]);
+    cores_.push_back(pieces.shape(i));
   }
 }
 

@@ -15,7 +15,7 @@ struct PersonShapeConfig {
   double largest_depth_m = 1.5;  ///< Across that.
   double least_height_m = 0.3;   ///< From the lowest to the highest part.
   double flat_m = 0.012;         ///< What lies so near to a plane, noise apart, is furniture.
-  double largest_step_m = 0.55;  ///< In depth between parts of one person that meet in the image.
+  double largest_step_m = 0.35;  ///< In depth between parts of one person that meet in the image.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -51,14 +51,16 @@ class PersonGroups {
   const SurfaceShape& shape(int group) const { return shapes_[static_cast<std::size_t>(group)]; }
   /// The group of a piece, -1 = nobody.
   int GroupOf(int piece) const { return groups_[static_cast<std::size_t>(piece)]; }
-  const std::vector<int>& groups() const { return groups_; }
-  const std::vector<SurfaceShape>& shapes() const { return shapes_; }
+  /// Of a piece: its group where it is the largest one of that, -1 else. What hangs on tells less.
+  const std::vector<int>& group_of_core() const { return group_of_core_; }
+  /// The largest piece of each group.
+  const std::vector<SurfaceShape>& cores() const { return cores_; }
 
  private:
   int Root(int piece);
   bool MayJoin(const PersonShapeConfig& config, const SurfaceShape& a, const SurfaceShape& b) const;
   void JoinPieces(const PersonShapeConfig& config, const SurfacePieces& pieces);
-  void Number(const PersonShapeConfig& config, int piece_count);
+  void Number(const PersonShapeConfig& config, const SurfacePieces& pieces);
 
   struct Pair {
     float cost;
@@ -69,6 +71,8 @@ class PersonGroups {
   std::vector<int> groups_;
   std::vector<SurfaceShape> joined_;  ///< Per root.
   std::vector<SurfaceShape> shapes_;
+  std::vector<SurfaceShape> cores_;
+  std::vector<int> group_of_core_;
 };
 
 }  // namespace deixis::pose_fitter

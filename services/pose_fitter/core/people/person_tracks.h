@@ -8,7 +8,7 @@
 namespace deixis::pose_fitter {
 
 struct PersonTracksConfig {
-  int frames_to_start = 3;     ///< In a row, before somebody gets a number.
+  int frames_to_start = 1;     ///< In a row, before somebody gets a number.
   double hidden_time_s = 2.0;  ///< Somebody not seen for so long is gone.
   double gate_m = 0.35;        ///< Someone in view is found again within this,
   double gate_m_per_s = 0.8;   ///< and so much further per second out of view.

@@ -6,9 +6,14 @@
 namespace deixis::pose_fitter {
 namespace {
 
-constexpr int kSampleEvery_px = 8;  // Enough for sums: neighbours tell the same.
+constexpr int kSamplesPerRow = 40;  // Of the picture: neighbours tell the same.
 constexpr int kGap_px = 6;          // Half-occluded and flying pixels between two surfaces.
 constexpr int kGapRows_px = 3;
+constexpr int kReachRows = 60;  // Of a picture: so near are a level surface and what stands on it.
+constexpr float kSameDepth_m = 0.12F;
+constexpr double kLowestTop_m = 0.15;  // What is level below this is the floor with its noise.
+constexpr double kEnd_m = 0.04;        // Lowest and highest part of a piece.
+constexpr double kAtTop = 0.3;         // Share of it that must meet a level surface.
 
 }  // namespace
 
@@ -53,9 +58,12 @@ Eigen::Matrix3d SurfaceShape::Covariance() const {
 
 SurfacePieces::SurfacePieces() : contacts_(static_cast<std::size_t>(kMost * kMost)) {
   shapes_.reserve(kMost);
+  is_at_top_.reserve(kMost);
+  ends_.reserve(kMost);
 }
 
-void SurfacePieces::Find(const DepthView& depth, const RoomFrame& room, double least_area_m2,
+void SurfacePieces::Find(const DepthView& depth, const RoomFrame& room, double least_m2,
+                         double largest_m2, const std::vector<std::uint8_t>& is_level,
                          SurfaceRuns& runs) {
   const std::size_t capacity = runs.runs().capacity();
   areas_.reserve(capacity);
@@ -68,15 +76,17 @@ void SurfacePieces::Find(const DepthView& depth, const RoomFrame& room, double l
     areas_[static_cast<std::size_t>(run.component)] +=
         per_pixel * z * z * static_cast<float>(run.end_px - run.begin_px);
   }
-  Choose(least_area_m2, runs);
+  Choose(least_m2, largest_m2, runs);
   Measure(depth, room, runs);
+  FindAtTops(depth, room, is_level, runs);
   FindContacts(depth, runs);
 }
 
-void SurfacePieces::Choose(double least_area_m2, SurfaceRuns& runs) {
+void SurfacePieces::Choose(double least_m2, double largest_m2, SurfaceRuns& runs) {
   order_.clear();
   for (std::size_t i = 0; i < areas_.size(); ++i) {
-    if (static_cast<double>(areas_[i]) >= least_area_m2) order_.push_back(static_cast<int>(i));
+    const auto area_m2 = static_cast<double>(areas_[i]);
+    if (area_m2 >= least_m2 && area_m2 <= largest_m2) order_.push_back(static_cast<int>(i));
   }
   const auto area = [this](int i) { return areas_[static_cast<std::size_t>(i)]; };
   std::sort(order_.begin(), order_.end(),
@@ -95,17 +105,59 @@ void SurfacePieces::Measure(const DepthView& depth, const RoomFrame& room,
                             const SurfaceRuns& runs) {
   shapes_.assign(order_.size(), {});
   const double per_pixel = 1.0 / depth.camera().focal_px.prod();
+  const int every_px = std::max(1, depth.width_px() / kSamplesPerRow);
   for (const SurfaceRun& run : runs.runs()) {
     if (run.component < 0) continue;
     SurfaceShape& shape = shapes_[static_cast<std::size_t>(run.component)];
     const int length = run.end_px - run.begin_px;
-    const int samples = 1 + (length - 1) / kSampleEvery_px;
+    const int samples = 1 + (length - 1) / every_px;
+    const auto middle_m =
+        static_cast<double>(depth.z_m((run.begin_px + run.end_px) / 2, run.row_px));
+    const double sigma_m = depth.camera().noise.Sigma_m(middle_m);
     for (int i = 0; i < samples; ++i) {
       const int u = run.begin_px + (2 * i + 1) * length / (2 * samples);
       const Eigen::Vector3d point_m = depth.Point(u, run.row_px);
       shape.Add(room.FromCamera(point_m), static_cast<double>(length) / samples,
-                per_pixel * point_m.z() * point_m.z(), depth.camera().noise.Sigma_m(point_m.z()));
+                per_pixel * point_m.z() * point_m.z(), sigma_m);
     }
+  }
+}
+
+void SurfacePieces::FindAtTops(const DepthView& depth, const RoomFrame& room,
+                               const std::vector<std::uint8_t>& is_level, const SurfaceRuns& runs) {
+  const int reach_px = std::max(2, depth.height_px() / kReachRows);
+  const auto meets_level = [&](const SurfaceRun& run, int step) {
+    const int u = (run.begin_px + run.end_px) / 2;
+    const float z = depth.z_m(u, run.row_px);
+    for (int i = 1; i <= reach_px; ++i) {
+      const int v = run.row_px + step * i;
+      if (v < 0 || v >= depth.height_px()) return false;
+      const bool is_near = std::abs(depth.z_m(u, v) - z) < kSameDepth_m;
+      if (is_near && is_level[static_cast<std::size_t>(v * depth.width_px() + u)] != 0) return true;
+    }
+    return false;
+  };
+  ends_.assign(shapes_.size(), {});
+  for (const SurfaceRun& run : runs.runs()) {
+    if (run.component < 0) continue;
+    const SurfaceShape& shape = shapes_[static_cast<std::size_t>(run.component)];
+    auto& ends = ends_[static_cast<std::size_t>(run.component)];
+    const double height_m =
+        room.FromCamera(depth.Point((run.begin_px + run.end_px) / 2, run.row_px)).z();
+    if (height_m < kLowestTop_m) continue;
+    const int length = run.end_px - run.begin_px;
+    if (height_m < shape.lowest_m.z() + kEnd_m) {
+      ends[0] += length;
+      ends[1] += meets_level(run, 1) ? length : 0;
+    }
+    if (height_m > shape.highest_m.z() - kEnd_m) {
+      ends[2] += length;
+      ends[3] += meets_level(run, -1) ? length : 0;
+    }
+  }
+  is_at_top_.clear();
+  for (const auto& ends : ends_) {
+    is_at_top_.push_back(ends[1] > kAtTop * ends[0] || ends[3] > kAtTop * ends[2] ? 1 : 0);
   }
 }
 

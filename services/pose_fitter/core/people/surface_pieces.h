@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "services/pose_fitter/core/depth/depth_view.h"
@@ -52,18 +54,25 @@ class SurfacePieces {
   static constexpr int kMost = 96;  ///< The largest ones; the others are left out.
 
   SurfacePieces();
-  /// Numbers the pieces of `runs`, whose components become their numbers, -1 = left out.
-  void Find(const DepthView& depth, const RoomFrame& room, double least_area_m2, SurfaceRuns& runs);
+  /// Numbers the pieces of `runs` whose area, seen head on, lies between the two; components become
+  /// these numbers, -1 = left out.
+  void Find(const DepthView& depth, const RoomFrame& room, double least_m2, double largest_m2,
+            const std::vector<std::uint8_t>& is_level, SurfaceRuns& runs);
 
   int count() const { return static_cast<int>(shapes_.size()); }
   const SurfaceShape& shape(int piece) const { return shapes_[static_cast<std::size_t>(piece)]; }
+  /// Whether it stands on a level surface, or goes down from one: what lies on tables, their edges
+  /// and legs.
+  bool IsAtTop(int piece) const { return is_at_top_[static_cast<std::size_t>(piece)] != 0; }
   const Contact& contact(int a, int b) const {
     return contacts_[static_cast<std::size_t>(a * kMost + b)];
   }
 
  private:
-  void Choose(double least_area_m2, SurfaceRuns& runs);
+  void Choose(double least_m2, double largest_m2, SurfaceRuns& runs);
   void Measure(const DepthView& depth, const RoomFrame& room, const SurfaceRuns& runs);
+  void FindAtTops(const DepthView& depth, const RoomFrame& room,
+                  const std::vector<std::uint8_t>& is_level, const SurfaceRuns& runs);
   void FindContacts(const DepthView& depth, const SurfaceRuns& runs);
   void Touch(int a, int b, float step_m);
 
@@ -71,6 +80,9 @@ class SurfacePieces {
   std::vector<int> order_;
   std::vector<int> numbers_;
   std::vector<SurfaceShape> shapes_;
+  std::vector<std::uint8_t> is_at_top_;
+  std::vector<std::array<int, 4>> ends_;  ///< Pixels of its lower end, of these on a level surface;
+                                          ///< the same of its upper end and below one.
   std::vector<Contact> contacts_;
 };
 
