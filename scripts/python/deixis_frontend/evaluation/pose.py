@@ -99,13 +99,16 @@ def _run_all(where: layout.Layout, chain: Chain, arguments: argparse.Namespace, 
         jobs: dict[Future[list[Run]], Sequence] = {
             pool.submit(_run_sequence, where, sequence, chain, columns, scratch, arguments.plots): sequence
             for sequence in sequences}
-        for done, job in enumerate(as_completed(jobs), 1):
-            bar.show(done)
-            try:
-                runs += job.result()
-            except UserError as error:
-                failed.append(Skipped(jobs[job].name, str(error)))
-                print(f"not run: {jobs[job].name} ({error})", flush=True)
+        try:
+            for done, job in enumerate(as_completed(jobs), 1):
+                bar.show(done)
+                try:
+                    runs += job.result()
+                except UserError as error:
+                    failed.append(Skipped(jobs[job].name, str(error)))
+                    print(f"not run: {jobs[job].name} ({error})", flush=True)
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)  # Ctrl-C does not wait for those to come.
     return sorted(runs, key=lambda r: r.sequence.name), failed
 
 
