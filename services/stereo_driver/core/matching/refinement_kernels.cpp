@@ -54,17 +54,20 @@ template <int kCount>
 
 }  // namespace
 
-DEIXIS_KERNEL void CompareRow(const float* left, const float* right, const float* disparity_px,
+DEIXIS_KERNEL void CompareRow(const float* left, RightRow right, const float* disparity_px,
                               int width, float* slope_error, float* slope_square) {
   slope_error[0] = slope_square[0] = 0.0F;
   slope_error[width - 1] = slope_square[width - 1] = 0.0F;
-  const float last = static_cast<float>(width) - 3.0F;
+  const float* grey = right.grey;
+  const float first = static_cast<float>(right.first);
+  const float last = static_cast<float>(right.width) - 3.0F;
   for (int x = 1; x < width - 1; ++x) {
     const bool is_present = disparity_px[x] > 0.0F;
-    const float place = std::min(std::max(static_cast<float>(x) - disparity_px[x], 1.0F), last);
+    const float place =
+        std::min(std::max(first + static_cast<float>(x) - disparity_px[x], 1.0F), last);
     const int i = static_cast<int>(place);
     const float share = place - static_cast<float>(i);
-    const float r0 = right[i - 1], r1 = right[i], r2 = right[i + 1], r3 = right[i + 2];
+    const float r0 = grey[i - 1], r1 = grey[i], r2 = grey[i + 1], r3 = grey[i + 2];
     const float error = left[x] - (r1 + share * (r2 - r1));
     const float right_slope = 0.5F * ((r2 - r0) + share * (r3 - r1 - r2 + r0));
     const float left_slope = 0.5F * (left[x + 1] - left[x - 1]);
