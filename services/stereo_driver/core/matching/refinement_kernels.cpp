@@ -13,8 +13,10 @@ constexpr float kLeastTexture = 20.0F;  // Of slope_square: holds still what has
 constexpr float kLongestStep_px = 0.5F;
 constexpr float kLongestWay_px = 1.0F;
 
-constexpr int kBlock = 256;   // Sums of so many pixels stay in the nearest cache.
-constexpr int kTogether = 7;  // Neighbours of a row that are added in registers; the usual window.
+constexpr int kBlock = 256;  // Sums of so many pixels stay in the nearest cache.
+// Neighbours of a row that are added in registers: the usual windows'.
+constexpr int kTogether = 7;
+constexpr int kMoreTogether = 9;
 
 /// Adds, to sum and count, those of `kCount` neighbours that agree with `here`.
 template <int kCount>
@@ -44,6 +46,9 @@ template <int kCount>
   for (int dy = 0; dy < side; ++dy) {
     const float* row = rows + dy * stride;
     int dx = 0;
+    for (; dx + kMoreTogether == side; dx += kMoreTogether) {
+      AddAgreeing<kMoreTogether>(row, here, agree_px, width, sum, count);
+    }
     for (; dx + kTogether <= side; dx += kTogether) {
       AddAgreeing<kTogether>(row + dx, here, agree_px, width, sum, count);
     }
@@ -73,7 +78,8 @@ DEIXIS_KERNEL void CompareRow(const float* left, RightRow right, const float* di
     const float left_slope = 0.5F * (left[x + 1] - left[x - 1]);
     const float slope = 0.5F * (left_slope + right_slope);
     const float scaled = error * (1.0F / kErrorScale);
-    const float weight = is_present ? 1.0F / (1.0F + scaled * scaled) : 0.0F;
+    const float likeness = 1.0F / (1.0F + scaled * scaled);
+    const float weight = is_present ? likeness * likeness : 0.0F;
     slope_error[x] = weight * slope * error;
     slope_square[x] = weight * slope * slope;
   }

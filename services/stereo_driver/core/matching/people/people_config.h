@@ -8,7 +8,7 @@ namespace deixis::stereo_driver {
 inline RefinementConfig FineRefinementDefaults() {
   RefinementConfig config;
   config.iterations = 4;
-  config.window_px = 13;
+  config.window_px = 11;
   config.smoothing_px = 9;
   return config;
 }
@@ -18,7 +18,7 @@ struct PeopleConfig {
   double margin_m = 0.25;            ///< Around the ends of limbs: flesh, clothes and errors.
   double speed_m_per_s = 2.0;        ///< By which the margin grows with the age of a pose.
   double memory_s = 1.0;             ///< Older poses are forgotten.
-  double largest_share = 0.5;        ///< Of the picture that is looked at; what exceeds it is not.
+  double largest_share = 0.5;        ///< Of the picture, of what stands out while nobody is said.
   bool sharpens_silhouettes = true;  ///< Whether colours correct the edges of bodies.
   RefinementConfig alignment = FineRefinementDefaults();
 

@@ -43,8 +43,9 @@ void PeopleMeasurer::Measure(const Windows& said, const RectifiedPair& pair,
   windows_.clear();
   // The pixels of the halves of odd sizes are no pairs of pixels.
   if (size.width % 2 != 0 || size.height % 2 != 0) return;
-  windows_ = Tidied(said.empty() ? standing_out_.Find(half_disparity, half_) : said, size,
-                    config_.largest_share);
+  windows_ = said.empty()
+                 ? Tidied(standing_out_.Find(half_disparity, half_), size, config_.largest_share)
+                 : Tidied(said, size, 1.0);
   if (config_.sharpens_silhouettes) {
     Sharpen(pair, half_left_grey, half_right_grey, half_disparity);
   }
