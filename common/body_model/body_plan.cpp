@@ -22,6 +22,7 @@ void Term::Validate() const {
   faults.Require(std::isfinite(share) && std::abs(share) <= 10.0, "share", "must lie in -10..10");
   faults.Require(std::isfinite(metres) && std::abs(metres) <= BodyModel::kLargest_m, "metres",
                  "must lie in -3..3");
+  faults.Require(spread >= 0.0 && spread <= 10.0, "spread", "must lie in 0..10");
   faults.ThrowIfAny();
 }
 
@@ -58,18 +59,12 @@ BodyPlan LoadBodyPlan(const std::filesystem::path& path) { return config::Load<B
 
 std::vector<std::string> MeasuresOf(const BodyPlan& plan) {
   std::set<std::string> measures;
-  const auto note = [&measures](const LengthPlan& length) {
-    for (const Term& term : length) {
-      if (!term.of.empty()) measures.insert(term.of);
-    }
-  };
   for (const LimbPlan& limb : plan.limbs) {
-    for (const LengthPlan* length :
-         {&limb.origin.x, &limb.origin.y, &limb.origin.z, &limb.length, &limb.proximal.a,
-          &limb.proximal.b, &limb.proximal.x, &limb.proximal.y, &limb.distal.a, &limb.distal.b,
-          &limb.distal.x, &limb.distal.y}) {
-      note(*length);
-    }
+    ForEachLength(limb, [&measures](const char*, const LengthPlan& length) {
+      for (const Term& term : length) {
+        if (!term.of.empty()) measures.insert(term.of);
+      }
+    });
   }
   return {measures.begin(), measures.end()};
 }

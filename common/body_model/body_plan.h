@@ -17,12 +17,16 @@ struct Term {
   std::string of;      ///< Abbreviation of a measure; empty = `metres` counts.
   double share = 1.0;  ///< Of that measure.
   double metres = 0.0;
+  /// How people of the same measure differ, one standard deviation, in the unit of what counts of
+  /// the two above; 0 = not known.
+  double spread = 0.0;
 
   template <typename Visitor>
   void Visit(Visitor& v) {
     v("of", of);
     v("share", share);
     v("metres", metres);
+    v("spread", spread);
   }
   void Validate() const;  ///< Throws FaultsFound.
 };
@@ -116,6 +120,23 @@ struct LimbPlan {
   void Validate() const;  ///< Throws FaultsFound.
 };
 
+/// Calls `function(key, length)` for all lengths of a limb's plan, by their keys in the file.
+template <typename Plan, typename Function>
+void ForEachLength(Plan& limb, Function&& function) {
+  function("origin.x", limb.origin.x);
+  function("origin.y", limb.origin.y);
+  function("origin.z", limb.origin.z);
+  function("length", limb.length);
+  function("proximal.a", limb.proximal.a);
+  function("proximal.b", limb.proximal.b);
+  function("proximal.x", limb.proximal.x);
+  function("proximal.y", limb.proximal.y);
+  function("distal.a", limb.distal.a);
+  function("distal.b", limb.distal.b);
+  function("distal.x", limb.distal.x);
+  function("distal.y", limb.distal.y);
+}
+
 /// A tree of limbs whose sizes follow from a person's measures: a file of config/body_models.
 struct BodyPlan {
   std::string name;
@@ -131,6 +152,9 @@ struct BodyPlan {
 
 /// Reads a file of config/body_models. Throws ConfigError naming file, line and key.
 BodyPlan LoadBodyPlan(const std::filesystem::path& path);
+
+/// The text of such a file, shares rounded to 0.0001, metres to 0.1 mm, degrees to 0.01.
+std::string ToYaml(const BodyPlan& plan);
 
 /// Measures that the plan's lengths are shares of.
 std::vector<std::string> MeasuresOf(const BodyPlan& plan);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
+#include <optional>
 
 #include "common/config/config.h"
 #include "common/program/command_line.h"
@@ -50,9 +51,11 @@ void Run(const offline::Arguments& arguments) {
   if (arguments.threads) cv::setNumThreads(*arguments.threads);
   RequireDifferentFiles(arguments);
   offline::LogReader input(arguments.input);
-  offline::OfflineHost host(arguments.channel_prefix);
+  std::optional<offline::ServiceTimes> times;
+  if (!arguments.times.empty()) times.emplace(arguments.times);
+  offline::OfflineHost host(arguments.channel_prefix, times ? &*times : nullptr);
   for (const std::string& name : arguments.services) {
-    host.Add(offline::MakeService(name, arguments.configuration, host.bus()));
+    host.Add(offline::MakeService(name, arguments.configuration, host.bus()), name);
   }
   deixis::transport::BusOptions output_options;
   output_options.url = "file://" + arguments.output + "?mode=w";

@@ -33,6 +33,8 @@ void Describe(CLI::App& app, Arguments& arguments, Texts& texts) {
   app.add_option("--threads", arguments.threads,
                  "Threads for OpenCV's image operations; the result does not depend on it")
       ->check(CLI::Range(1, kMostThreads));
+  app.add_option("--times", arguments.times,
+                 "Write a table of the CPU time that each service spends on each message (CSV)");
   app.add_flag("--results-only", arguments.results_only, "Leave the input out of the output");
 }
 

@@ -14,6 +14,7 @@ struct Arguments {
   std::vector<std::string> services = DefaultServices();
   Configuration configuration;
   std::string channel_prefix;
+  std::string times;  ///< File for the services' CPU times; empty: none.
   bool results_only = false;
   std::optional<int> threads;  ///< For OpenCV; its own choice without.
 };

@@ -50,13 +50,22 @@ std::set<std::string> UnheardOn(const transport::Bus& bus) {
 
 }  // namespace
 
-OfflineHost::OfflineHost(const std::string& channel_prefix)
-    : prefix_(channel_prefix), bus_(PrivateBus(channel_prefix)) {
-  bus_.SubscribeRaw(".*", [this](const transport::RawMessage& message) { Record(message); });
+OfflineHost::OfflineHost(const std::string& channel_prefix, ServiceTimes* times)
+    : prefix_(channel_prefix), bus_(PrivateBus(channel_prefix)), times_(times) {
+  bus_.SubscribeRaw(".*", [this](const transport::RawMessage& message) {
+    Record(message);
+    if (times_ != nullptr) times_->Begin();
+  });
 }
 
-void OfflineHost::Add(std::unique_ptr<HostedService> service) {
+// LCM hands a message to subscribers in the order in which they came: what has passed when this one
+// gets it was spent by the service that subscribed last.
+void OfflineHost::Add(std::unique_ptr<HostedService> service, const std::string& name) {
   services_.push_back(std::move(service));
+  if (times_ == nullptr) return;
+  bus_.SubscribeRaw(".*", [this, name](const transport::RawMessage& message) {
+    times_->Note(name, message.channel, event_time_us_);
+  });
 }
 
 std::set<std::string> OfflineHost::ReplacedChannels() const {
@@ -101,6 +110,7 @@ Summary OfflineHost::Run(LogReader& input, transport::Bus& output, OutputContent
     if (failure_) std::rethrow_exception(failure_);
   }
   output.Flush();
+  if (times_ != nullptr) times_->Flush();
   summary.nameless_events = input.nameless_events();
   summary.input_bytes = input.size_bytes();
   summary.damaged = input.damaged();

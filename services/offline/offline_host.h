@@ -10,6 +10,7 @@
 
 #include "common/transport/bus.h"
 #include "services/offline/log_reader.h"
+#include "services/offline/service_times.h"
 
 namespace deixis::offline {
 
@@ -39,10 +40,12 @@ enum class OutputContent { kEverything, kResultsOnly };
 /// Feeds a log, event by event, to services on one private bus.
 class OfflineHost {
  public:
-  explicit OfflineHost(const std::string& channel_prefix);
+  /// `times` outlives the host; null: nobody wants to know.
+  explicit OfflineHost(const std::string& channel_prefix, ServiceTimes* times = nullptr);
 
   transport::Bus& bus() { return bus_; }
-  void Add(std::unique_ptr<HostedService> service);
+  /// Takes a service that was made on bus() after all that were added before.
+  void Add(std::unique_ptr<HostedService> service, const std::string& name = "");
 
   /// Runs `input` through the services into `output`. `report_progress` gets the share that is
   /// done. Throws BusError when the output cannot be written.
@@ -55,6 +58,7 @@ class OfflineHost {
 
   std::string prefix_;
   transport::Bus bus_;
+  ServiceTimes* times_ = nullptr;
   std::vector<std::unique_ptr<HostedService>> services_;
   std::set<std::string> replaced_;
   transport::Bus* output_ = nullptr;

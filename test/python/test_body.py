@@ -134,7 +134,7 @@ def test_urdf_brings_every_joint_where_the_model_has_it(tmp_path: Path,
 
 def test_urdf_loads_in_a_parser_of_others(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     parser = pytest.importorskip("urdf_parser_py.urdf")
-    for model in ("whole_body_detailed", "whole_body", "upper_body", "right_arm"):
+    for model in ("whole_body_detailed", "clothed_body", "whole_body", "upper_body", "right_arm"):
         report = report_of(capsys, "--urdf", str(tmp_path / f"{model}.urdf"), "--model", model)
         robot = parser.URDF.from_xml_file(str(tmp_path / f"{model}.urdf"))
         assert robot.get_root() == "body_default"

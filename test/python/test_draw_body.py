@@ -19,7 +19,7 @@ from deixis_lcm import logs
 
 image = pytest.importorskip("matplotlib.image")
 
-MODELS = ("right_arm", "upper_body", "whole_body", "whole_body_detailed")
+MODELS = ("right_arm", "upper_body", "whole_body", "whole_body_detailed", "clothed_body")
 FRAMES = 3  # standing, pointing, any
 DPI = 120
 Frame = list[tuple[Any, Any]]  # (body_model_t, body_pose_t) of each person

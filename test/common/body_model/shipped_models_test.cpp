@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "common/body_model/joint_angles.h"
 #include "common/body_model/kinematics.h"
@@ -15,18 +16,27 @@ using Eigen::Vector3d;
 
 class ShippedModels : public testing::TestWithParam<Person> {};
 
+/// Both with the limbs of a detailed body.
+class DetailedModels : public testing::TestWithParam<std::tuple<Person, const char*>> {
+ protected:
+  BodyModel Model() const { return Shipped(std::get<1>(GetParam()), std::get<0>(GetParam())); }
+};
+
 TEST_P(ShippedModels, HaveTheLimbsAndAnglesOfTheirSources) {
   EXPECT_EQ(Shipped("upper_body", GetParam()).limb_count(), 6);
   EXPECT_EQ(Shipped("whole_body", GetParam()).limb_count(), 10);
   EXPECT_EQ(Shipped("whole_body_detailed", GetParam()).limb_count(), 19);
+  const BodyModel clothed = Shipped("clothed_body", GetParam());
+  EXPECT_EQ(clothed.limb_count(), 24);
+  EXPECT_EQ(clothed.angle_count(), Shipped("whole_body_detailed", GetParam()).angle_count());
   const BodyModel arm = Shipped("right_arm", GetParam());
   EXPECT_EQ(6 + arm.angle_count(), 10);
   EXPECT_TRUE(arm.limbs()[static_cast<std::size_t>(*arm.Find("right_hand"))].dofs.empty());
   EXPECT_TRUE(arm.limbs()[static_cast<std::size_t>(*arm.Find("head"))].dofs.empty());
 }
 
-TEST_P(ShippedModels, StandUprightWithHangingArms) {
-  const BodyModel model = Shipped("whole_body_detailed", GetParam());
+TEST_P(DetailedModels, StandUprightWithHangingArms) {
+  const BodyModel model = Model();
   Kinematics kinematics(model);
   kinematics.Update(Standing(model));
   for (const char* limb : {"right_upper_arm", "left_lower_arm", "right_thigh", "left_shank"}) {
@@ -46,6 +56,17 @@ TEST_P(ShippedModels, AreAsTallAsThePerson) {
   EXPECT_NEAR(kinematics.distal_m(head).z() - under_foot.z(), GetParam().stature_m, 0.03);
 }
 
+TEST_P(ShippedModels, AreAsTallAsThePersonInShoesAndHairToo) {
+  const BodyModel model = Shipped("clothed_body", GetParam());
+  Kinematics kinematics(model);
+  kinematics.Update(Standing(model));
+  const int foot = *model.Find("right_foot"), top = *model.Find("skull_cap");
+  const auto& sole = model.limbs()[static_cast<std::size_t>(foot)].shape;
+  const Vector3d under_foot =
+      kinematics.limb(foot) * Vector3d(sole.centre0_m.x() - sole.a0_m, 0.0, 0.0);
+  EXPECT_NEAR(kinematics.distal_m(top).z() - under_foot.z(), GetParam().stature_m, 0.06);
+}
+
 TEST_P(ShippedModels, SpreadTheirArmsAsFarAsPeopleDo) {
   const BodyModel model = Shipped("whole_body_detailed", GetParam());
   BodyPose pose = RestPose(model);
@@ -59,8 +80,8 @@ TEST_P(ShippedModels, SpreadTheirArmsAsFarAsPeopleDo) {
   EXPECT_NEAR(span_m, GetParam().stature_m, 0.05);
 }
 
-TEST_P(ShippedModels, AreMirrorImages) {
-  const BodyModel model = Shipped("whole_body_detailed", GetParam());
+TEST_P(DetailedModels, AreMirrorImages) {
+  const BodyModel model = Model();
   Kinematics kinematics(model);
   kinematics.Update(Standing(model));
   for (const char* limb :
@@ -71,8 +92,8 @@ TEST_P(ShippedModels, AreMirrorImages) {
   }
 }
 
-TEST_P(ShippedModels, BendAsPeopleDoWhenTheirAnglesGrow) {
-  const BodyModel model = Shipped("whole_body_detailed", GetParam());
+TEST_P(DetailedModels, BendAsPeopleDoWhenTheirAnglesGrow) {
+  const BodyModel model = Model();
   const auto moved = [&](const std::string& limb, int dof, const std::string& end) {
     BodyPose pose = Standing(model);
     Kinematics kinematics(model);
@@ -100,13 +121,17 @@ TEST_P(ShippedModels, BendAsPeopleDoWhenTheirAnglesGrow) {
 
 TEST_P(ShippedModels, HaveJacobiansThatAreDerivatives) {
   std::mt19937 random(8);
-  for (const char* name : {"upper_body", "whole_body", "whole_body_detailed", "right_arm"}) {
+  for (const char* name :
+       {"upper_body", "whole_body", "whole_body_detailed", "clothed_body", "right_arm"}) {
     const BodyModel model = Shipped(name, GetParam());
     for (int i = 0; i < 3; ++i) ExpectDerivatives(model, RandomPose(model, random));
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(People, ShippedModels, testing::ValuesIn(FourPeople()));
+INSTANTIATE_TEST_SUITE_P(People, DetailedModels,
+                         testing::Combine(testing::ValuesIn(FourPeople()),
+                                          testing::Values("whole_body_detailed", "clothed_body")));
 
 }  // namespace
 }  // namespace deixis::body_model

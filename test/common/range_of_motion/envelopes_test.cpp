@@ -102,7 +102,7 @@ TEST_P(Envelopes, HoldEveryPossiblePairOfAnglesAndHardlyMore) {
 
 INSTANTIATE_TEST_SUITE_P(OfTheShipped, Envelopes,
                          testing::Values("upper_body", "whole_body", "whole_body_detailed",
-                                         "right_arm"));
+                                         "clothed_body", "right_arm"));
 
 TEST(Envelopes, OfTheLimbsOfASpineAreAlike) {
   const BodyModel model = ShippedBody("whole_body_detailed");

@@ -143,7 +143,8 @@ TEST(ShippedRanges, BoundRotationsThatAStretchedElbowCannotTellApartByTheirSum) 
 }
 
 TEST(ShippedRanges, HaveNobodyBeyondThemWhoStands) {
-  for (const char* name : {"upper_body", "whole_body", "whole_body_detailed", "right_arm"}) {
+  for (const char* name :
+       {"upper_body", "whole_body", "whole_body_detailed", "clothed_body", "right_arm"}) {
     const BodyModel body = ShippedBody(name);
     const RangeOfMotion ranges(body, ShippedRanges(), ShippedRows(), Limits::kSource);
     Kinematics kinematics(body);

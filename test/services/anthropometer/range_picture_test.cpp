@@ -86,7 +86,8 @@ TEST(PlaneReach, FollowsTheLimbsAbove) {
 }
 
 TEST(RangePicture, ShowsMoreThanTheBodyAlone) {
-  for (const char* name : {"whole_body_detailed", "whole_body", "upper_body", "right_arm"}) {
+  for (const char* name :
+       {"whole_body_detailed", "clothed_body", "whole_body", "upper_body", "right_arm"}) {
     const Standing man(name);
     const cv::Mat picture = man.Picture();
     EXPECT_EQ(picture.rows, 300);

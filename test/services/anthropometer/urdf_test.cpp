@@ -20,7 +20,8 @@ using body_model::BodyModel;
 using body_model::BodyPose;
 using Eigen::Isometry3d;
 
-constexpr const char* kModels[] = {"whole_body_detailed", "whole_body", "upper_body", "right_arm"};
+constexpr const char* kModels[] = {"whole_body_detailed", "clothed_body", "whole_body",
+                                   "upper_body", "right_arm"};
 
 BodyPose AnyPose(const BodyModel& model, std::mt19937& random) {
   BodyPose pose = RestPose(model);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -30,6 +31,19 @@ class Echo final : public HostedService {
 
  private:
   std::string output_;
+};
+
+// Works for five milliseconds on every message of `input`.
+class Busy final : public HostedService {
+ public:
+  Busy(const std::string& input, Bus& bus) {
+    bus.Subscribe<Hands>(input, Delivery::kEvery, [](const Hands&) {
+      const std::clock_t end = std::clock() + CLOCKS_PER_SEC / 200;
+      while (std::clock() < end) {
+      }
+    });
+  }
+  std::vector<std::string> OutputChannels() const override { return {}; }
 };
 
 class OfflineHostTest : public testing::Test {
@@ -80,6 +94,37 @@ TEST_F(OfflineHostTest, FinishesAllThatFollowsBeforeTheNextInput) {
   EXPECT_THAT(Events(), ElementsAre("A@10", "B@10", "C@10", "A@20", "B@20", "C@20"));
   EXPECT_EQ(summary.events_read, 2);
   EXPECT_EQ(summary.published.at("C"), 2);
+}
+
+TEST_F(OfflineHostTest, TellsWhichServiceSpentTheTime) {
+  WriteInput({{"A", 10}, {"A", 20}});
+  {
+    LogReader input(Path("in.lcmlog"));
+    ServiceTimes times(Path("times.csv"));
+    OfflineHost host("", &times);
+    host.Add(std::make_unique<Busy>("A", host.bus()), "busy");
+    host.Add(std::make_unique<Echo>("A", "B", host.bus()), "idle");
+    Bus log(Log(Path("out.lcmlog")));
+    host.Run(input, log, OutputContent::kEverything, [](double) {});
+  }
+  std::ifstream file(Path("times.csv"));
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, "service,channel,time_us,cpu_us");
+  std::map<std::string, std::int64_t> spent_us;
+  while (std::getline(file, line)) {
+    const auto last = line.rfind(',');
+    spent_us[line.substr(0, last)] += std::stoll(line.substr(last + 1));
+  }
+  for (const char* of_busy : {"busy,A,10", "busy,A,20"}) EXPECT_GE(spent_us[of_busy], 5000);
+  for (const auto& [of, time_us] : spent_us) {
+    if (of.rfind("busy,A", 0) == 0) continue;
+    EXPECT_LT(time_us, 3000) << of;
+  }
+}
+
+TEST_F(OfflineHostTest, SaysWhenTimesCannotBeWritten) {
+  EXPECT_THROW(ServiceTimes(Path("no/such/folder/times.csv")), transport::BusError);
 }
 
 TEST_F(OfflineHostTest, LeavesTheInputOutOnRequest) {

@@ -14,4 +14,5 @@ SUBCOMMANDS: dict[str, Command] = {
     "live": Command(f"{_PACKAGE}.live", "loss, age, CPU and memory of the chain at camera rate"),
     "motion": Command(f"{_PACKAGE}.motion", "what the limits of joints say of recorded motion"),
     "pointing": Command(f"{_PACKAGE}.pointing", "which pointing gestures are recognised, and when"),
+    "pose": Command(f"{_PACKAGE}.pose", "how far fitted bodies are from true people"),
 }

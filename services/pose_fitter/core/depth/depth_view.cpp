@@ -6,7 +6,8 @@
 namespace deixis::pose_fitter {
 
 double DepthNoise::Sigma_m(double z_m) const {
-  return std::hypot(floor_m, per_square_m * z_m * z_m);
+  const double grown_m = per_square_m * z_m * z_m;
+  return std::sqrt(floor_m * floor_m + grown_m * grown_m);  // std::hypot takes ten times as long.
 }
 
 Eigen::Vector2d DepthCamera::Project(const Eigen::Vector3d& point_m) const {

@@ -71,38 +71,21 @@ void BodyEvidenceConfig::Validate() const {
   faults.ThrowIfAny();
 }
 
-void BodyEvidence::Gather(const DepthView& view, const body_model::Kinematics& kinematics,
+void BodyEvidence::Gather(const DepthView& view, body_model::Kinematics& kinematics,
+                          const std::vector<const body_model::BodyPose*>& poses,
                           const std::optional<body_model::Floor>& floor, const BodyMask& mask,
                           double gate_m) {
   view_ = &view;
   floor_ = floor;
   body_.create(view.height_px(), view.width_px(), CV_8UC1);
   body_.setTo(0);
-  MarkBody(kinematics, mask, gate_m);
+  box_ = {};
+  for (const body_model::BodyPose* pose : poses) {
+    kinematics.Update(*pose);
+    MarkBody(kinematics, mask, gate_m);
+  }
   RemoveIslands();
   MeasureClearance(kinematics.proximal_m(0).z());
-  TakePoints();
-}
-
-void BodyEvidence::GatherRegion(const DepthView& view, const std::vector<std::uint8_t>& labels,
-                                int label, const std::optional<body_model::Floor>& floor) {
-  view_ = &view;
-  floor_ = floor;
-  body_.create(view.height_px(), view.width_px(), CV_8UC1);
-  box_ = cv::Rect(0, 0, view.width_px(), view.height_px());
-  pixel_count_ = 0;
-  double depth_m = 0.0;
-  for (int v = 0; v < body_.rows; ++v) {
-    auto* row = body_.ptr<std::uint8_t>(v);
-    for (int u = 0; u < body_.cols; ++u) {
-      const auto pixel = static_cast<std::size_t>(v * body_.cols + u);
-      row[u] = labels[pixel] == label && view.z_m(u, v) > 0.0F ? 1 : 0;
-      if (row[u] == 0) continue;
-      ++pixel_count_;
-      depth_m += static_cast<double>(view.z_m(u, v));
-    }
-  }
-  MeasureClearance(pixel_count_ > 0 ? depth_m / pixel_count_ : 0.0);
   TakePoints();
 }
 
@@ -112,7 +95,6 @@ bool BodyEvidence::IsAboveFloor(const Vector3d& point_m) const {
 
 void BodyEvidence::MarkBody(const body_model::Kinematics& kinematics, const BodyMask& mask,
                             double gate_m) {
-  box_ = {};
   for (int limb = 0; limb < kinematics.model().limb_count(); ++limb) {
     MarkLimb(kinematics, limb, mask, gate_m);
   }

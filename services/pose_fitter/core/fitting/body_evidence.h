@@ -40,13 +40,11 @@ class BodyEvidence {
  public:
   explicit BodyEvidence(const BodyEvidenceConfig& config) : config_(config) {}
 
-  /// Gathers it around the pose of `kinematics`. `view` must outlive what is gathered.
-  void Gather(const DepthView& view, const body_model::Kinematics& kinematics,
+  /// Gathers it around all `poses`, of which there is at least one, by the model of `kinematics`.
+  /// `view` must outlive what is gathered.
+  void Gather(const DepthView& view, body_model::Kinematics& kinematics,
+              const std::vector<const body_model::BodyPose*>& poses,
               const std::optional<body_model::Floor>& floor, const BodyMask& mask, double gate_m);
-
-  /// Gathers it from the pixels that a region holds, before any pose is known.
-  void GatherRegion(const DepthView& view, const std::vector<std::uint8_t>& labels, int label,
-                    const std::optional<body_model::Floor>& floor);
 
   const DepthView& view() const { return *view_; }
   const BodyPoints& points() const { return points_; }

@@ -32,6 +32,7 @@ std::vector<JointFreedom> FreedomsOf(const BodyFitterConfig& config,
         config.joints.begin(), config.joints.end(),
         [&limb](const JointFreedom& joint) { return joint.limb == WithoutSide(limb.name); });
     freedoms.push_back(found == config.joints.end() ? JointFreedom{limb.name} : *found);
+    freedoms.back().rest_rad = std::min(freedoms.back().rest_rad, config.most_rest_rad);
   }
   return freedoms;
 }
@@ -112,6 +113,10 @@ BodyFitter::BodyFitter(const BodyFitterConfig& config, const body_model::BodyMod
   ball_radii_m_.resize(count);
   first_of_limb_.resize(count + 1);
   sums_.resize(count);
+  for (int i = 0; i < model.limb_count(); ++i) {
+    const auto& name = model.limbs()[static_cast<std::size_t>(i)].name;
+    if (WithoutSide(name) == name) trunk_.push_back(i);
+  }
 }
 
 FitResult BodyFitter::Fit(const BodyEvidence& evidence,
@@ -141,9 +146,9 @@ FitResult BodyFitter::Fit(const BodyEvidence& evidence,
     limb_equations_.AddTo(kinematics_, equations_);
     AddPriors(pose, predicted, seconds);
     AddLimits(pose);
+    AddUpright(pose, floor);
     Step(pose);
   }
-  for (int i = 0; i < model_->angle_count(); ++i) pose.angles_rad[i] += 0.0;
   kinematics_.Update(pose);
   return Judge(evidence);
 }
@@ -264,6 +269,18 @@ void BodyFitter::AddLimits(const body_model::BodyPose& pose) {
   }
 }
 
+void BodyFitter::AddUpright(const body_model::BodyPose& pose,
+                            const std::optional<body_model::Floor>& floor) {
+  if (config_.upright_rad >= kFreeAngle_rad) return;
+  const Vector3d up = floor ? floor->normal : Vector3d(-Vector3d::UnitY());
+  const Vector3d tilt = (pose.frame_from_root.rotation * Vector3d::UnitZ()).cross(up);
+  const double weight = 1.0 / (config_.upright_rad * config_.upright_rad);
+  for (int k = 0; k < 3; ++k) {
+    equations_.information(3 + k, 3 + k) += weight * (1.0 - up[k] * up[k]);
+    equations_.pull[3 + k] += weight * tilt[k];
+  }
+}
+
 // Nothing of the body is below the floor; it need not stand on it.
 void BodyFitter::AddFloor(const std::optional<body_model::Floor>& floor) {
   if (!floor) return;
@@ -309,20 +326,24 @@ FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
     cost += static_cast<double>(sums_[k].values[27]);
     result.limbs.push_back(found);
   }
+  double trunk_samples = 0.0, trunk_seen = 0.0;
+  for (const int limb : trunk_) {
+    const LimbView& view = result.limbs[static_cast<std::size_t>(limb)].view;
+    trunk_samples += view.samples - view.outside;
+    trunk_seen += view.seen;
+  }
+  result.trunk_seen = trunk_samples > 0.0 ? trunk_seen / trunk_samples : 0.0;
   result.explained = points.count() > 0 ? static_cast<double>(explained) / points.count() : 0.0;
-  double free = 0.0, samples = 0.0;
+  double free = 0.0, hidden = 0.0, samples = 0.0;
   for (const LimbEvidence& limb : result.limbs) {
     free += limb.view.free;
+    hidden += limb.view.hidden;
     samples += limb.view.samples;
   }
   cost += points.count() - explained;
-  result.score = cost / std::max(1, points.count()) + (samples > 0.0 ? 2.0 * free / samples : 2.0);
+  result.score = cost / std::max(1, points.count()) +
+                 (samples > 0.0 ? (2.0 * free + 0.3 * hidden) / samples : 2.0);
   return result;
-}
-
-Eigen::MatrixXd BodyFitter::Covariance() const {
-  const auto size = equations_.information.rows();
-  return equations_.information.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
 }
 
 }  // namespace deixis::pose_fitter

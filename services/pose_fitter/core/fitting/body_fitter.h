@@ -31,7 +31,7 @@ struct BodyFitterConfig {
   int iterations = 12;            ///< Of each fit.
   double first_scale_m = 0.10;    ///< Of the robust weights, in the first round ...
   double last_scale_m = 0.03;     ///< ... and in the last.
-  double judged_scale_m = 0.02; ///< By which a fit is judged against others.
+  double judged_scale_m = 0.02;   ///< By which a fit is judged against others.
   double first_reach_m = 0.25;    ///< Points farther from all limbs do not count, in the first ...
   double last_reach_m = 0.10;     ///< ... and in the last round.
   double across_m = 0.012;        ///< Spread of clothes about their cylinders, one sigma.
@@ -40,6 +40,8 @@ struct BodyFitterConfig {
   double root_motion_m = 0.04;    ///< As JointFreedom::motion_rad, of the base limb.
   double root_motion_rad = 0.12;  ///< Likewise.
   double motion_weight = 0.4;     ///< Of the prediction.
+  double most_rest_rad = 10.0;    ///< Rest spreads of joints are no larger.
+  double upright_rad = 10.0;      ///< Spread of the base limb about the vertical; 10 = none.
   double limit_rad = 0.03;        ///< Spread of angles beyond their limits.
   OutlineConfig outline;
   std::vector<JointFreedom> joints{
@@ -62,6 +64,8 @@ struct BodyFitterConfig {
     v("root_motion_m", root_motion_m);
     v("root_motion_rad", root_motion_rad);
     v("motion_weight", motion_weight);
+    v("most_rest_rad", most_rest_rad);
+    v("upright_rad", upright_rad);
     v("limit_rad", limit_rad);
     v("outline", outline);
     v("joints", joints);
@@ -79,6 +83,8 @@ struct LimbEvidence {
 struct FitResult {
   double score = 0.0;      ///< Of the whole body: how badly points and free space agree with it.
   double explained = 0.0;  ///< Share of the points that a limb explains.
+  double trunk_seen =
+      0.0;  ///< Share of the surface of trunk and head that is measured where it is.
   std::vector<LimbEvidence> limbs;
 };
 
@@ -96,8 +102,8 @@ class BodyFitter {
 
   const body_model::Kinematics& kinematics() const { return kinematics_; }
   body_model::Kinematics& kinematics() { return kinematics_; }
-  /// Covariance of the last fit, in the order of body_model::PointJacobian.
-  Eigen::MatrixXd Covariance() const;
+  /// Of the last fit, in the order of body_model::PointJacobian.
+  const Eigen::MatrixXd& information() const { return equations_.information; }
 
  private:
   void Assign(const BodyPoints& points, double reach_m);
@@ -105,6 +111,7 @@ class BodyFitter {
   void AddPriors(const body_model::BodyPose& pose, const body_model::BodyPose& predicted,
                  std::optional<double> seconds);
   void AddLimits(const body_model::BodyPose& pose);
+  void AddUpright(const body_model::BodyPose& pose, const std::optional<body_model::Floor>& floor);
   void AddFloor(const std::optional<body_model::Floor>& floor);
   void Step(body_model::BodyPose& pose);
   FitResult Judge(const BodyEvidence& evidence);
@@ -114,6 +121,7 @@ class BodyFitter {
   body_model::Kinematics kinematics_;
   body_model::BodyPose rest_;
   std::vector<JointFreedom> freedoms_;  ///< Of each limb.
+  std::vector<int> trunk_;              ///< Limbs that are there once: trunk and head.
   OutlineTerm outline_;
   LimbEquations limb_equations_;
   BodyEquations equations_;

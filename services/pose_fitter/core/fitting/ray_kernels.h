@@ -34,8 +34,8 @@ struct SumSettings {
 };
 
 /// Sums over the points of one limb: of w v v' (21, lower triangle row by row), w r v (6), of
-/// the robust cost r^2 / (s^2 + r^2), of w and of r^2, where v = ((p - root) x n, n), r the distance by which the surface should move along its
-/// normal n at p.
+/// the robust cost r^2 / (s^2 + r^2), of w and of r^2, where v = ((p - root) x n, n), r the
+/// distance by which the surface should move along its normal n at p.
 struct LimbSums {
   static constexpr int kCount = 30;
   float values[kCount];

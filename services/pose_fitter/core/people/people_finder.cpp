@@ -1,99 +1,203 @@
 #include "services/pose_fitter/core/people/people_finder.h"
 
-#include <cmath>
-#include <random>
+#include <algorithm>
+
+#include "services/pose_fitter/core/depth/sound_depth.h"
 
 namespace deixis::pose_fitter {
+
+static_assert(SurfacePieces::kMost < 256, "labels are bytes");
+
 namespace {
-using Eigen::Vector3d;
-std::optional<body_model::Floor> FloorOf(const DepthView& view) {
-  std::vector<Vector3d> points;
-  for (int v = view.height_px() / 3; v < view.height_px(); v += 4)
-    for (int u = 0; u < view.width_px(); u += 4)
-      if (view.z_m(u, v) > 0.5F && view.z_m(u, v) < 6.0F) points.push_back(view.Point(u, v));
-  if (points.size() < 50) return std::nullopt;
-  std::mt19937 random(1);
-  body_model::Floor best;
-  double most = 0;
-  for (int k = 0; k < 400; ++k) {
-    const auto pick = [&] { return points[random() % points.size()]; };
-    const Vector3d a = pick(), b = pick(), c = pick();
-    Vector3d n = (b - a).cross(c - a);
-    if (n.norm() < 1e-3) continue;
-    n.normalize();
-    if (n.y() > 0) n = -n;
-    if (n.y() > -0.8) continue;
-    const double d = -n.dot(a);
-    double count = 0;
-    for (const auto& p : points) {
-      const double h = n.dot(p) + d;
-      const double t = 0.01 + 0.006 * p.z() * p.z();
-      if (std::abs(h) < t)
-        count += 1;
-      else if (h < -2 * t)
-        count -= 1;
-    }
-    if (count > most) {
-      most = count;
-      best = {n, d};
-    }
-  }
-  if (most < 50) return std::nullopt;
-  return best;
-}
+
+constexpr double kHeightSigmas = 1.5;  // Noise of the floor that is cut off with it.
+constexpr double kAnyHeight_m = 100.0;
+constexpr int kLevelRows = 60;  // Rows of a picture, over how far apart level pixels are compared.
+constexpr int kTopBins = 140;   // Centimetres: nothing higher is sat or lain on.
+
 }  // namespace
 
-PeopleRegions FindPeople(const DepthView& view, std::optional<body_model::Floor> floor) {
-  PeopleRegions out;
-  if (!floor) floor = FloorOf(view);
-  out.floor = floor;
-  const int w = view.width_px(), h = view.height_px();
-  out.labels.assign(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), 0);
-  std::vector<int> seen(out.labels.size(), 0), stack;
-  auto ok = [&](int i) {
-    const int u = i % w, v = i / w;
-    const float z = view.z_m(u, v);
-    if (z < 0.5F || z > 4.5F) return false;
-    if (!floor) return true;
-    const double height = floor->normal.dot(view.Point(u, v)) + floor->offset_m;
-    return height > 0.05 && height < 2.3;
-  };
-  int label = 0;
-  for (int s = 0; s < w * h; ++s) {
-    if (seen[static_cast<std::size_t>(s)] || !ok(s)) continue;
-    stack.assign(1, s);
-    seen[static_cast<std::size_t>(s)] = 1;
-    for (std::size_t k = 0; k < stack.size(); ++k) {
-      const int i = stack[k], u = i % w, v = i / w;
-      const int nb[4] = {u > 0 ? i - 1 : -1, u < w - 1 ? i + 1 : -1, v > 0 ? i - w : -1,
-                         v < h - 1 ? i + w : -1};
-      for (int q : nb) {
-        if (q < 0 || seen[static_cast<std::size_t>(q)] || !ok(q)) continue;
-        const float z = view.z_m(u, v);
-        if (std::abs(view.z_m(q % w, q / w) - z) > 0.02F + 0.015F * z * z) continue;
-        seen[static_cast<std::size_t>(q)] = 1;
-        stack.push_back(q);
+void PeopleFinderConfig::Validate() const {
+  config::Faults faults;
+  faults.Require(near_m > 0.0, "near_m", "must be positive");
+  faults.Require(far_m > near_m, "far_m", "must be larger than near_m");
+  faults.Require(highest_m > lowest_m, "highest_m", "must be larger than lowest_m");
+  faults.Require(join_fixed_m >= 0.0, "join_fixed_m", "must not be negative");
+  faults.Require(join_sigmas > 0.0, "join_sigmas", "must be positive");
+  faults.Require(join_slope > 0.0, "join_slope", "must be positive");
+  faults.Require(least_piece_m2 > 0.0, "least_piece_m2", "must be positive");
+  faults.Require(least_top_m2 > 0.0, "least_top_m2", "must be positive");
+  faults.Require(top_thickness_m > 0.0, "top_thickness_m", "must be positive");
+  faults.Require(least_likeness >= 0.0 && least_likeness <= 1.0, "least_likeness",
+                 "must lie between 0 and 1");
+  faults.ThrowIfAny();
+}
+
+PeopleFinder::PeopleFinder(const PeopleFinderConfig& config) : config_(config) {
+  config_.Validate();
+  config_.shape.Validate();
+}
+
+const PeopleRegions& PeopleFinder::Find(const DepthView& depth,
+                                        const std::vector<std::uint8_t>& is_sound,
+                                        const std::optional<body_model::Floor>& floor) {
+  has_floor_ = floor.has_value();
+  room_ =
+      RoomFrameOf(floor ? floor->normal : -Eigen::Vector3d::UnitY(), floor ? floor->offset_m : 0.0);
+  regions_.floor = floor;
+  SetGate(depth.camera());
+  FindTops(depth);
+  Link(depth, is_sound);
+  pieces_.Find(depth, room_, config_.least_piece_m2, config_.shape.largest_area_m2, is_level_,
+               runs_);
+  Group(depth);
+  Write(depth);
+  return regions_;
+}
+
+void PeopleFinder::SetGate(const DepthCamera& camera) {
+  const Eigen::Vector3d up = room_.room_from_camera.row(2).transpose();
+  gate_.near_m = static_cast<float>(config_.near_m);
+  gate_.far_m = static_cast<float>(config_.far_m);
+  gate_.lean_per_px = static_cast<float>(up.x() / camera.focal_px.x());
+  gate_.camera_height_m = static_cast<float>(room_.camera_height_m);
+  gate_.lowest_m = static_cast<float>(has_floor_ ? config_.lowest_m : -kAnyHeight_m);
+  gate_.highest_m = static_cast<float>(has_floor_ ? config_.highest_m : kAnyHeight_m);
+  gate_.noise_per_square_m = static_cast<float>(kHeightSigmas * camera.noise.per_square_m);
+  gate_.step = StepLimitOf(camera, config_.join_sigmas, config_.join_slope);
+  gate_.step.fixed_m += static_cast<float>(config_.join_fixed_m);
+}
+
+RowGate PeopleFinder::GateOf(const DepthCamera& camera, int row) const {
+  RowGate gate = gate_;
+  gate.lean =
+      static_cast<float>(room_.room_from_camera.row(2).dot(camera.Ray(0.0, row).transpose()));
+  return gate;
+}
+
+/// Heights at which much lies level.
+void PeopleFinder::FindTops(const DepthView& depth) {
+  const DepthCamera& camera = depth.camera();
+  const int distance_px = std::max(2, camera.height_px / kLevelRows);
+  is_level_.assign(depth.z_m().size(), 0);
+  level_area_.assign(kTopBins, 0.0F);
+  const double lean_per_row = room_.room_from_camera(2, 1) / camera.focal_px.y();
+  for (int v = distance_px; v < camera.height_px - distance_px; ++v) {
+    const auto width = static_cast<std::ptrdiff_t>(camera.width_px);
+    const float* row_m = depth.z_m().data() + v * width;
+    const RowGate gate = GateOf(camera, v);
+    std::uint8_t* is_level = is_level_.data() + v * width;
+    MarkLevelRow(row_m - distance_px * width, row_m, row_m + distance_px * width, camera.width_px,
+                 gate, static_cast<float>(lean_per_row),
+                 static_cast<float>(1.0 / camera.focal_px.y()), distance_px, is_level);
+    AddLevelArea(row_m, is_level, camera.width_px, gate, level_area_.data(), kTopBins);
+  }
+  ChooseTops(camera);
+}
+
+/// The largest sums of neighbouring centimetres, until no top is large enough.
+void PeopleFinder::ChooseTops(const DepthCamera& camera) {
+  tops_ = {};
+  tops_.tolerance_m = static_cast<float>(config_.top_thickness_m);
+  const double least = config_.least_top_m2 * camera.focal_px.prod();
+  while (tops_.count < Tops::kMost) {
+    int best = 1;
+    float best_area = 0.0F;
+    for (int bin = 1; bin + 1 < kTopBins; ++bin) {
+      const auto at = static_cast<std::size_t>(bin);
+      const float area = level_area_[at - 1] + level_area_[at] + level_area_[at + 1];
+      if (area > best_area) {
+        best_area = area;
+        best = bin;
       }
     }
-    if (stack.size() < 1500) continue;
-    PersonRegion r;
-    r.pixel_count = static_cast<int>(stack.size());
-    double top = 0, left = 1e9, right = -1e9;
-    for (int i : stack) {
-      const Vector3d p = view.Point(i % w, i / w);
-      r.centroid_m += p;
-      top = std::max(top, floor ? floor->normal.dot(p) + floor->offset_m : -p.y());
-      left = std::min(left, p.x());
-      right = std::max(right, p.x());
-    }
-    r.centroid_m /= r.pixel_count;
-    r.top_m = top;
-    if (top < 1.0 || top > 2.1 || right - left > 2.0 || label > 250) continue;
-    r.label = ++label;
-    for (int i : stack) out.labels[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(label);
-    out.regions.push_back(r);
+    if (static_cast<double>(best_area) < least) return;
+    tops_.height_m[tops_.count++] = 0.01F * (static_cast<float>(best) + 0.5F);
+    std::fill_n(level_area_.begin() + best - 1, 3, 0.0F);
   }
-  return out;
+}
+
+void PeopleFinder::Link(const DepthView& depth, const std::vector<std::uint8_t>& is_sound) {
+  const DepthCamera& camera = depth.camera();
+  const auto width = static_cast<std::size_t>(camera.width_px);
+  links_.assign(width, 0);
+  is_inside_.assign(2 * width, 0);
+  runs_.Start(camera.width_px, camera.height_px);
+  for (int v = 0; v < camera.height_px; ++v) {
+    const std::size_t row = static_cast<std::size_t>(v) * width;
+    const float* row_m = depth.z_m().data() + row;
+    std::uint8_t* is_inside = is_inside_.data() + (v % 2) * camera.width_px;
+    const std::uint8_t* above_inside = is_inside_.data() + ((v + 1) % 2) * camera.width_px;
+    GateRow(row_m, is_sound.data() + row, camera.width_px, GateOf(camera, v), tops_,
+            is_level_.data() + row, is_inside);
+    LinkRow(v > 0 ? row_m - width : row_m, row_m, above_inside, is_inside, camera.width_px,
+            gate_.step, links_.data());
+    runs_.AddRow(links_.data());
+  }
+  runs_.Finish();
+}
+
+void PeopleFinder::Group(const DepthView& depth) {
+  groups_.Form(config_.shape, pieces_);
+  evidences_.Gather(depth, room_, runs_, groups_.group_of_core(), groups_.cores());
+}
+
+void PeopleFinder::Rank() {
+  ranked_.clear();
+  ranked_.reserve(SurfacePieces::kMost);
+  for (int i = 0; i < groups_.count(); ++i) {
+    if (Likeness(i) >= config_.least_likeness) ranked_.push_back(i);
+  }
+  std::sort(ranked_.begin(), ranked_.end(), [this](int a, int b) {
+    return std::pair(-Likeness(a), a) < std::pair(-Likeness(b), b);
+  });
+}
+
+double PeopleFinder::Likeness(int group) const {
+  const SurfaceShape& core = groups_.cores()[static_cast<std::size_t>(group)];
+  return LikenessOf(evidences_.of(group), core, core.highest_m.z() - Ground(group));
+}
+
+double PeopleFinder::Ground(int group) const {
+  return has_floor_ ? 0.0 : groups_.shape(group).lowest_m.z();
+}
+
+PersonRegion PeopleFinder::RegionOf(int group) const {
+  const SurfaceShape& shape = groups_.shape(group);
+  PersonRegion region;
+  region.area_m2 = shape.area_m2;
+  region.centroid_m = room_.room_from_camera.transpose() *
+                      (shape.Mean() - Eigen::Vector3d(0.0, 0.0, room_.camera_height_m));
+  region.top_m = shape.highest_m.z() - Ground(group);
+  region.bottom_m = shape.lowest_m.z() - Ground(group);
+  region.likeness = Likeness(group);
+  return region;
+}
+
+void PeopleFinder::Write(const DepthView& depth) {
+  Rank();
+  regions_.regions.clear();
+  regions_.regions.reserve(SurfacePieces::kMost);
+  label_of_group_.reserve(SurfacePieces::kMost);
+  label_of_group_.assign(static_cast<std::size_t>(groups_.count()), 0);
+  for (const int group : ranked_) {
+    regions_.regions.push_back(RegionOf(group));
+    const auto label = static_cast<int>(regions_.regions.size());
+    regions_.regions.back().label = label;
+    label_of_group_[static_cast<std::size_t>(group)] = static_cast<std::uint8_t>(label);
+  }
+  regions_.labels.assign(depth.z_m().size(), 0);
+  for (const SurfaceRun& run : runs_.runs()) {
+    const int group = run.component < 0 ? -1 : groups_.GroupOf(run.component);
+    const std::uint8_t label =
+        group < 0 ? std::uint8_t{0} : label_of_group_[static_cast<std::size_t>(group)];
+    if (label == 0) continue;
+    PersonRegion& region = regions_.regions[label - 1U];
+    region.pixel_count += run.end_px - run.begin_px;
+    region.box_px |= cv::Rect(run.begin_px, run.row_px, run.end_px - run.begin_px, 1);
+    auto* row = regions_.labels.data() + run.row_px * static_cast<std::ptrdiff_t>(depth.width_px());
+    std::fill(row + run.begin_px, row + run.end_px, label);
+  }
 }
 
 }  // namespace deixis::pose_fitter

@@ -49,18 +49,48 @@ BodyPose Seated(const body_model::BodyModel& model, BodyPose pose) {
   return pose;
 }
 
+Vector3d UpOf(const std::optional<body_model::Floor>& floor) {
+  return floor ? floor->normal : Vector3d(-Vector3d::UnitY());
+}
+
 }  // namespace
 
-std::vector<BodyPose> StartPoses(const body_model::BodyModel& model, const PersonRegion& region,
+Vector3d TopOf(const DepthView& view, const std::vector<std::uint8_t>& labels,
+               const PersonRegion& region, const std::optional<body_model::Floor>& floor,
+               double slab_m) {
+  const Vector3d up = UpOf(floor);
+  const cv::Rect& box = region.box_px;
+  const auto for_each = [&](const auto& visit) {
+    for (int v = box.y; v < box.y + box.height; ++v) {
+      for (int u = box.x; u < box.x + box.width; ++u) {
+        const auto pixel = static_cast<std::size_t>(v * view.width_px() + u);
+        if (labels[pixel] == region.label && view.z_m(u, v) > 0.0F) visit(view.Point(u, v));
+      }
+    }
+  };
+  double highest_m = -1e9;
+  for_each([&](const Vector3d& point_m) { highest_m = std::max(highest_m, up.dot(point_m)); });
+  Vector3d sum_m = Vector3d::Zero();
+  int count = 0;
+  for_each([&](const Vector3d& point_m) {
+    if (up.dot(point_m) < highest_m - slab_m) return;
+    sum_m += point_m;
+    ++count;
+  });
+  const Vector3d middle_m = count > 0 ? Vector3d(sum_m / count) : region.centroid_m;
+  return middle_m + (highest_m - up.dot(middle_m)) * up;
+}
+
+std::vector<BodyPose> StartPoses(const body_model::BodyModel& model, const Vector3d& head_top_m,
                                  const std::optional<body_model::Floor>& floor) {
-  const Vector3d up = floor ? floor->normal : -Vector3d::UnitY();
+  const Vector3d up = UpOf(floor);
   const BodyPose standing = body_model::Standing(model);
   const double standing_top_m = Top_m(model, standing);
   const double height_m = standing_top_m - Bottom_m(model, standing);
   std::vector<BodyPose> postures{standing};
-  if (region.top_m < kStandingShare * height_m) postures.push_back(Seated(model, standing));
-  const Vector3d view = region.centroid_m.normalized();
-  Vector3d to_camera = -(view - up * up.dot(view));
+  const double above_floor_m = floor ? up.dot(head_top_m) + floor->offset_m : 0.0;
+  if (above_floor_m < kStandingShare * height_m) postures.push_back(Seated(model, standing));
+  Vector3d to_camera = -(head_top_m - up * up.dot(head_top_m));
   to_camera.normalize();
   std::vector<BodyPose> poses;
   for (const BodyPose& posture : postures) {
@@ -70,11 +100,7 @@ std::vector<BodyPose> StartPoses(const body_model::BodyModel& model, const Perso
       axes << forward, up.cross(forward), up;
       BodyPose pose = posture;
       pose.frame_from_root.rotation = Eigen::Quaterniond(axes);
-      const Vector3d centre_m = region.centroid_m - to_camera * kInside_m;
-      const double now_m = floor ? up.dot(centre_m) + floor->offset_m : 0.0;
-      const double root_m = region.top_m - standing_top_m;
-      pose.frame_from_root.translation_m =
-          floor ? Vector3d(centre_m + (root_m - now_m) * up) : centre_m;
+      pose.frame_from_root.translation_m = head_top_m - kInside_m * to_camera - standing_top_m * up;
       poses.push_back(pose);
     }
   }

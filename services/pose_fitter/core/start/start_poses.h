@@ -6,10 +6,17 @@
 
 namespace deixis::pose_fitter {
 
-/// Where a person that was found may be: standing and, where it is not as high as a standing one,
-/// seated, each looking in several directions about the vertical; arms hanging.
+/// Where a person may be whose head ends at `head_top_m` (on the surface that is seen, in the
+/// camera's optical frame): standing and, where that is not as high as a standing one or the floor
+/// is not known, seated; each looking in several directions about the vertical, arms hanging.
 std::vector<body_model::BodyPose> StartPoses(const body_model::BodyModel& model,
-                                             const PersonRegion& region,
+                                             const Eigen::Vector3d& head_top_m,
                                              const std::optional<body_model::Floor>& floor);
+
+/// The top of a region: as high as it reaches, above the middle of its highest part, which is
+/// `slab_m` high.
+Eigen::Vector3d TopOf(const DepthView& view, const std::vector<std::uint8_t>& labels,
+                      const PersonRegion& region, const std::optional<body_model::Floor>& floor,
+                      double slab_m);
 
 }  // namespace deixis::pose_fitter
