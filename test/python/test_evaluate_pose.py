@@ -45,7 +45,8 @@ def _true(name: str = "one", shift: tuple[float, float, float] = (0, 0, 0)) -> T
 def _found(person: TruePerson, frame: int, number: int = 1, sigma_m: float = 0.05) -> FoundPerson:
     count = len(JOINTS)
     return FoundPerson(number, 1, person.pelvis_m[frame].copy(), person.joints_m[frame].copy(),
-                       np.tile(sigma_m**2 * np.eye(3), (count, 1, 1)), np.full(count, MEASURED))
+                       np.tile(sigma_m**2 * np.eye(3), (count, 1, 1)), np.full(count, MEASURED),
+                       np.tile(np.eye(3), (count, 1, 1)))
 
 
 def _frames(*people: TruePerson) -> list[FoundFrame]:
@@ -129,7 +130,7 @@ def test_changes_of_the_number_are_counted_over_gaps() -> None:
 def test_a_body_that_is_said_to_be_lost_counts_as_lost() -> None:
     found = _frames(_true())
     found = [FoundFrame(f.utime, [FoundPerson(1, 2, *(getattr(f.people[0], name) for name in (
-        "root_m", "joints_m", "covariances_m2", "states")))] if k < 6 else f.people) for k, f in enumerate(found)]
+        "root_m", "joints_m", "covariances_m2", "states", "rotations")))] if k < 6 else f.people) for k, f in enumerate(found)]
     assert _figures(found)["lost_frames_percent"] == 10.0
 
 
@@ -208,7 +209,7 @@ def test_coverage_is_the_share_inside_the_stated_ellipsoids() -> None:
 
 def _longer(person: JudgedPerson) -> JudgedPerson:
     twice = person.cut(slice(None))
-    for name in ("true_m", "is_visible", "found_m", "covariances_m2", "states", "ids", "is_said_lost"):
+    for name in ("true_m", "is_visible", "found_m", "covariances_m2", "states", "rotations", "ids", "is_said_lost"):
         setattr(twice, name, np.concatenate([getattr(person, name)] * 2))
     return twice
 

@@ -18,7 +18,8 @@ import numpy as np
 from deixis_frontend import layout
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import (
-    pose_chain, pose_matching, pose_plots, pose_report, pose_results, pose_scores, pose_truth, report_options)
+    pose_chain, pose_matching, pose_plots, pose_real, pose_report, pose_results, pose_scores, pose_truth,
+    report_options)
 from deixis_frontend.evaluation.pose_chain import Chain
 from deixis_frontend.evaluation.pose_matching import JudgedScene
 from deixis_frontend.evaluation.sequences import Sequence, Skipped, read_sequences
@@ -41,7 +42,8 @@ class Run:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which sequences, which settings, and where the figures go."""
-    parser.add_argument("--data", type=Path, required=True, metavar="DIR", help="folder of sequence folders")
+    parser.add_argument("--data", type=Path, required=True, metavar="DIR",
+                        help="folder of sequence folders, or of recordings of real people")
     parser.add_argument("--only", metavar="GLOB", help="names of sequences to use")
     report_options.add_json(parser)
     report_options.add_plots(parser, "worst frames and of errors over time")
@@ -61,26 +63,35 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """0; 1 when a sequence could not be run; raises UserError when there is nothing to measure."""
     report_options.check(arguments)
+    where, chain = layout.find(), _chain(arguments)
+    real = pose_real.find(arguments.data, arguments.only)
     sequences, skipped = read_sequences(arguments.data, arguments.only, pose_truth.NEEDED)
+    skipped = [s for s in skipped if s.name not in {folder.name for _, folder, _ in real}]
     for left_out in skipped:
         print(f"not used: {left_out.name} ({left_out.reason})")
-    if not sequences:
+    if not sequences and not real:
         raise UserError(f"no sequences with stereo videos and true joints in {arguments.data}: nothing was"
                         f" measured: each is a folder with sequence.csv, {', '.join(pose_truth.NEEDED)}")
     with tempfile.TemporaryDirectory() as scratch:
-        runs, failed = _run_all(arguments, sequences, Path(scratch))
+        runs, failed = _run_all(where, chain, arguments, sequences, Path(scratch))
     report = _report(runs, skipped, failed)
     pose_report.show(report)
+    reports, real_failed = pose_real.evaluate_all(where, real, chain)
+    report["real"] = reports
+    report["summary"].update({name: of_kind["summary"] for name, of_kind in reports.items()})
+    report["failed"] += [vars(s) for s in real_failed]
     report_options.write_json(arguments, report)
-    return 1 if failed else 0
+    return 1 if report["failed"] else 0
 
 
-def _run_all(arguments: argparse.Namespace, sequences: list[Sequence],
+def _chain(arguments: argparse.Namespace) -> Chain:
+    return Chain(tuple(arguments.settings), tuple(arguments.stereo_settings), arguments.hands,
+                 cache=arguments.depth_cache)
+
+
+def _run_all(where: layout.Layout, chain: Chain, arguments: argparse.Namespace, sequences: list[Sequence],
              scratch: Path) -> tuple[list[Run], list[Skipped]]:
     """All runs in the order of the sequences, and what failed."""
-    where = layout.find()
-    chain = Chain(tuple(arguments.settings), tuple(arguments.stereo_settings), arguments.hands,
-                  cache=arguments.depth_cache)
     columns = COLUMNS if arguments.columns == "both" else (arguments.columns,)
     runs: list[Run] = []
     failed: list[Skipped] = []
@@ -88,13 +99,16 @@ def _run_all(arguments: argparse.Namespace, sequences: list[Sequence],
         jobs: dict[Future[list[Run]], Sequence] = {
             pool.submit(_run_sequence, where, sequence, chain, columns, scratch, arguments.plots): sequence
             for sequence in sequences}
-        for done, job in enumerate(as_completed(jobs), 1):
-            bar.show(done)
-            try:
-                runs += job.result()
-            except UserError as error:
-                failed.append(Skipped(jobs[job].name, str(error)))
-                print(f"not run: {jobs[job].name} ({error})", flush=True)
+        try:
+            for done, job in enumerate(as_completed(jobs), 1):
+                bar.show(done)
+                try:
+                    runs += job.result()
+                except UserError as error:
+                    failed.append(Skipped(jobs[job].name, str(error)))
+                    print(f"not run: {jobs[job].name} ({error})", flush=True)
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)  # Ctrl-C does not wait for those to come.
     return sorted(runs, key=lambda r: r.sequence.name), failed
 
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from deixis_frontend.evaluation.pose_joints import JOINTS
 from deixis_frontend.evaluation.pose_results import BODY_LOST, FoundFrame, FoundPerson
 from deixis_frontend.evaluation.pose_truth import TruePerson, TrueScene
 
+WRONG_M = 0.15  # a joint that is farther off is wrong
 _GATE_M = 0.6  # between a true pelvis and the root of who stands for the person
 _FALSE_AFTER_S = 0.2  # who is nobody for this long in all is a false person
 MISSED = -1  # state of a joint of a person who is not in the message
@@ -18,7 +18,7 @@ MISSED = -1  # state of a joint of a person who is not in the message
 
 @dataclass
 class JudgedPerson:
-    """One true person and who stood for them: an entry per frame (F), joints (J) in the order of `JOINTS`."""
+    """One true person and who stood for them: an entry per frame (F), joints (J) in the order of the truth's."""
 
     name: str
     fps: float
@@ -27,6 +27,7 @@ class JudgedPerson:
     found_m: np.ndarray  # F x J x 3, NaN where missed
     covariances_m2: np.ndarray  # F x J x 3 x 3, NaN where missed
     states: np.ndarray  # F x J, of limb_pose_t, or MISSED
+    rotations: np.ndarray  # F x J x 3 x 3, frame_from_limb of each joint's limb; identity where missed
     ids: np.ndarray  # F, -1 = nobody
     is_said_lost: np.ndarray  # F: who stands for the person is, as the message says, not to be relied upon
 
@@ -41,7 +42,7 @@ class JudgedPerson:
         """The same for some frames only."""
         return JudgedPerson(self.name, self.fps, *(
             getattr(self, name)[frames] for name in
-            ("true_m", "is_visible", "found_m", "covariances_m2", "states", "ids", "is_said_lost")))
+            ("true_m", "is_visible", "found_m", "covariances_m2", "states", "rotations", "ids", "is_said_lost")))
 
 
 @dataclass
@@ -70,11 +71,11 @@ def judge(scene: TrueScene, found: list[FoundFrame], begin_us: int = 0) -> Judge
 
 
 def _blank(person: TruePerson, fps: float) -> JudgedPerson:
-    frames, joints = person.frames, len(JOINTS)
+    frames, joints = person.frames, person.joints_m.shape[1]
     return JudgedPerson(
         person.name, fps, person.joints_m, person.is_visible,
         np.full((frames, joints, 3), np.nan), np.full((frames, joints, 3, 3), np.nan),
-        np.full((frames, joints), MISSED), np.full(frames, -1), np.zeros(frames, bool))
+        np.full((frames, joints), MISSED), np.tile(np.eye(3), (frames, joints, 1, 1)), np.full(frames, -1), np.zeros(frames, bool))
 
 
 def _by_frame(found: list[FoundFrame], fps: float, begin_us: int) -> dict[int, FoundFrame]:
@@ -99,5 +100,6 @@ def _take(judged: JudgedPerson, frame: int, person: FoundPerson) -> None:
     judged.covariances_m2[frame] = person.covariances_m2
     is_there = np.isfinite(person.joints_m).all(axis=1)
     judged.states[frame] = np.where(is_there, person.states, MISSED)
+    judged.rotations[frame] = person.rotations
     judged.ids[frame] = person.id
     judged.is_said_lost[frame] = person.state == BODY_LOST

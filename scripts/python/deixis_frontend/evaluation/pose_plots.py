@@ -66,7 +66,7 @@ def crop_around(points_px: np.ndarray) -> tuple[int, int, int, int]:
     """Left, top, right, bottom of a box with the shape of a tile and room around the points."""
     low, high = points_px.min(axis=0), points_px.max(axis=0)
     width, height = _TILE_PX
-    half_height = max(0.7 * (high[1] - low[1]), 0.7 * (high[0] - low[0]) * height / width, 60.0)
+    half_height = max(0.62 * (high[1] - low[1]), 0.62 * (high[0] - low[0]) * height / width, 60.0)
     half = np.array([half_height * width / height, half_height])
     middle = 0.5 * (low + high)
     left, top = np.floor(middle - half).astype(int)

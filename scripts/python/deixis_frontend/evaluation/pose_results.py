@@ -25,6 +25,7 @@ class FoundPerson:
     joints_m: np.ndarray  # J x 3, in the message's frame
     covariances_m2: np.ndarray  # J x 3 x 3
     states: np.ndarray  # J, of limb_pose_t; LOST where there is no such limb
+    rotations: np.ndarray  # J x 3 x 3, frame_from_limb of the limb that the joint is taken from
 
 
 @dataclass(frozen=True)
@@ -56,18 +57,19 @@ def _person(body: Any, model: Any, joints: tuple[JointPlace, ...]) -> FoundPerso
     stature = model.stature_m or _AVERAGE_STATURE_M
     count = len(joints)
     places, covariances = np.full((count, 3), np.nan), np.full((count, 3, 3), np.nan)
-    states = np.full(count, LOST)
+    states, rotations = np.full(count, LOST), np.tile(np.eye(3), (count, 1, 1))
     for index, joint in enumerate(joints):
         limb = limbs.get(joint.limb)
         if limb is None:
             continue
         places[index] = getattr(limb, f"{joint.end}_m")
+        rotations[index] = rotation(limb.in_frame.rotation_wxyz)
         if any(joint.offset):
-            places[index] += stature * rotation(limb.in_frame.rotation_wxyz) @ np.array(joint.offset)
+            places[index] += stature * rotations[index] @ np.array(joint.offset)
         covariances[index] = symmetric(getattr(limb, f"{joint.end}_covariance_m2"))
         states[index] = limb.state
     return FoundPerson(body.person_id, body.state, np.array(body.root_in_frame.translation_m), places,
-                       covariances, states)
+                       covariances, states, rotations)
 
 
 def symmetric(lower: Any) -> np.ndarray:

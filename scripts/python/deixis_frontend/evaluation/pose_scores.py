@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from deixis_frontend.evaluation import pose_geometry
+from deixis_frontend.evaluation import pose_geometry, pose_matching
 from deixis_frontend.evaluation.pose_joints import JOINTS, KINDS
 from deixis_frontend.evaluation.pose_matching import MISSED, JudgedPerson, JudgedScene
 from deixis_frontend.evaluation.pose_results import HIDDEN, LOST, MEASURED
 
 GOOD_M = 0.10
-WRONG_M = 0.15
+WRONG_M = pose_matching.WRONG_M
 EPISODE_FRAMES = 5  # a joint that is wrong for more frames than this was lost
 # Squared Mahalanobis distances in three dimensions that 50 % and 90 % stay below.
 _CHI2 = {50: 2.366, 90: 6.251}
