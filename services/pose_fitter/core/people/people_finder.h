@@ -41,7 +41,7 @@ struct PeopleRegions {
 struct PeopleFinderConfig {
   double near_m = 0.4;     ///< Nobody is nearer
   double far_m = 6.0;      ///< or farther.
-  double lowest_m = 0.03;  ///< Above the floor: below it are the floor and its noise.
+  double lowest_m = 0.02;  ///< Above the floor: below it are the floor and its noise.
   double highest_m = 2.3;
   double join_fixed_m = 0.03;     ///< Step in depth within one surface: this,
   double join_sigmas = 2.0;       ///< noise,
