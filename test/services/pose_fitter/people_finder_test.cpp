@@ -192,6 +192,17 @@ TEST_F(PeopleFinderTest, FindsSomebodyWithoutAFloor) {
   EXPECT_NEAR(Find(room).regions[0].top_m, 1.75, 0.15);
 }
 
+TEST_F(PeopleFinderTest, FindsHeadAndShouldersBeforeTheCamera) {
+  Room room;
+  room.has_floor = false;
+  room.pitch_rad = 0.0;
+  room.camera_height_m = 1.5;
+  room.wall_m = 2.6;
+  room.AddStanding(0.0, 0.9, 1);
+  ASSERT_EQ(Find(room).regions.size(), 1U);
+  EXPECT_GT(Recall(1), 0.95);
+}
+
 TEST_F(PeopleFinderTest, SeesNobodyWhereNothingWasMeasured) {
   picture_ = test::Look({});
   picture_.depth_mm.setTo(0);

@@ -13,6 +13,13 @@ namespace {
 using ::testing::Each;
 using ::testing::ElementsAre;
 
+/// Three in a row make somebody.
+PersonTracksConfig ThreeFrames() {
+  PersonTracksConfig config;
+  config.frames_to_start = 3;
+  return config;
+}
+
 PersonSighting At(double x_m, double z_m) { return {{x_m, 0.0, z_m}}; }
 
 TEST(CheapestPairs, AgreesWithTryingAllOrders) {
@@ -46,14 +53,14 @@ TEST(CheapestPairs, LeavesOutPairsThatMustNotBe) {
 }
 
 TEST(PersonTracks, GivesANumberAfterSoManyFramesInARow) {
-  PersonTracks tracks;
+  PersonTracks tracks(ThreeFrames());
   EXPECT_THAT(tracks.Update({At(0, 2)}, 0.0), ElementsAre(-1));
   EXPECT_THAT(tracks.Update({At(0, 2)}, 0.1), ElementsAre(-1));
   EXPECT_THAT(tracks.Update({At(0, 2)}, 0.2), ElementsAre(0));
 }
 
 TEST(PersonTracks, GivesNoNumberToWhatFlickers) {
-  PersonTracks tracks;
+  PersonTracks tracks(ThreeFrames());
   for (int i = 0; i < 20; ++i) {
     const auto ids = i % 3 == 2 ? tracks.Update({}, 0.1 * i) : tracks.Update({At(0, 2)}, 0.1 * i);
     EXPECT_THAT(ids, Each(-1)) << i;
@@ -61,7 +68,7 @@ TEST(PersonTracks, GivesNoNumberToWhatFlickers) {
 }
 
 TEST(PersonTracks, StartsNobodyFromADoubtfulSighting) {
-  PersonTracks tracks;
+  PersonTracks tracks(ThreeFrames());
   PersonSighting doubtful = At(0, 2);
   doubtful.may_start = false;
   for (int i = 0; i < 9; ++i) EXPECT_THAT(tracks.Update({doubtful}, 0.1 * i), ElementsAre(-1));
@@ -72,7 +79,7 @@ class Crossing : public ::testing::Test {
  protected:
   static PersonSighting Left(double t) { return At(-1.5 + t, 2.2); }
   static PersonSighting Right(double t) { return At(1.5 - t, 2.7); }
-  PersonTracks tracks_;
+  PersonTracks tracks_{ThreeFrames()};
 };
 
 TEST_F(Crossing, KeepsBothNumbers) {
@@ -106,7 +113,7 @@ TEST_F(Crossing, KeepsBothNumbersThoughOneIsHiddenMeanwhile) {
 
 TEST(PersonTracks, FindsSomebodyAgainWithinTwoSecondsAndNotLater) {
   for (const double gap_s : {1.9, 2.2}) {
-    PersonTracks tracks;
+    PersonTracks tracks(ThreeFrames());
     for (int i = 0; i < 5; ++i) tracks.Update({At(0, 2), At(2, 3)}, 0.1 * i);
     double t = 0.4;
     for (; t < 0.4 + gap_s; t += 0.1) tracks.Update({At(0, 2)}, t);
@@ -116,14 +123,14 @@ TEST(PersonTracks, FindsSomebodyAgainWithinTwoSecondsAndNotLater) {
 }
 
 TEST(PersonTracks, GivesADistantNewcomerANewNumber) {
-  PersonTracks tracks;
+  PersonTracks tracks(ThreeFrames());
   for (int i = 0; i < 5; ++i) tracks.Update({At(0, 2)}, 0.1 * i);
   for (int i = 5; i < 8; ++i) tracks.Update({At(2, 2)}, 0.1 * i);
   EXPECT_THAT(tracks.Update({At(2, 2)}, 0.8), ElementsAre(1));
 }
 
 TEST(PersonTracks, TrustsAKnownPersonMoreThanPositions) {
-  PersonTracks tracks;
+  PersonTracks tracks(ThreeFrames());
   for (int i = 0; i < 5; ++i) tracks.Update({At(0, 2), At(0.4, 2)}, 0.1 * i);
   PersonSighting first = At(0.4, 2), second = At(0, 2);
   first.known_id = 0;
@@ -132,7 +139,7 @@ TEST(PersonTracks, TrustsAKnownPersonMoreThanPositions) {
 }
 
 TEST(PersonTracks, ForgetsEverybodyWhenTimeStepsBack) {
-  PersonTracks tracks;
+  PersonTracks tracks(ThreeFrames());
   for (int i = 0; i < 5; ++i) tracks.Update({At(0, 2)}, 10.0 + 0.1 * i);
   EXPECT_THAT(tracks.Update({At(0, 2)}, 1.0), ElementsAre(-1));
   EXPECT_EQ(tracks.Find(0), nullptr);
@@ -141,14 +148,14 @@ TEST(PersonTracks, ForgetsEverybodyWhenTimeStepsBack) {
 }
 
 TEST(PersonTracks, EstimatesTheSpeed) {
-  PersonTracks tracks;
+  PersonTracks tracks(ThreeFrames());
   for (int i = 0; i <= 30; ++i) tracks.Update({At(0.03 * i, 2)}, i / 30.0);
   ASSERT_NE(tracks.Find(0), nullptr);
   EXPECT_NEAR(tracks.Find(0)->velocity_m_per_s.x(), 0.9, 0.05);
 }
 
 TEST(PersonTracks, TakesNoMoreThanItsMost) {
-  PersonTracks tracks;
+  PersonTracks tracks(ThreeFrames());
   std::vector<PersonSighting> crowd;
   for (int i = 0; i < 100; ++i) crowd.push_back(At(1.0 * i, 2));
   for (int i = 0; i < 5; ++i) tracks.Update(crowd, 0.1 * i);

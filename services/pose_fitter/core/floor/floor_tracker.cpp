@@ -23,6 +23,7 @@ constexpr double kSmoothSigmas = 2.0;
 constexpr double kSmoothSlope = 2.0;
 constexpr int kAttempts = 8;
 constexpr double kLeastSpread = 1e-5;  // Of three rays, else they lie in a line.
+constexpr double kBetter = 1.1;        // Score of a plane that replaces the one followed.
 constexpr double kBelowPenalty = 4.0;
 constexpr int kLeastSamples = 40;
 constexpr double kSameTilt_rad = 0.008;  // Beyond these the camera has moved.
@@ -91,13 +92,7 @@ const std::optional<body_model::Floor>& FloorTracker::Update(
   auto seen = slopes_ ? Refined(*slopes_, equations) : std::nullopt;
   if (!seen || !has_time_ || time_s - search_time_s_ >= config_.search_time_s) {
     search_time_s_ = time_s;
-    Equations others;
-    auto found = Search();
-    if (found) found = Refined(*found, others);
-    if (found && (!seen || Score(*found) > 1.1 * std::max(0.0, Score(*seen)))) {
-      seen = found;
-      equations = others;
-    }
+    TakeBetter(seen, equations);
   }
   if (seen) {
     Remember(*seen, equations, elapsed_s);
@@ -109,6 +104,16 @@ const std::optional<body_model::Floor>& FloorTracker::Update(
   time_s_ = time_s;
   has_time_ = true;
   return floor_;
+}
+
+/// Searches without regard to what is known, and takes what is clearly better.
+void FloorTracker::TakeBetter(std::optional<Slopes>& seen, Equations& equations) const {
+  Equations others;
+  auto found = Search();
+  if (found) found = Refined(*found, others);
+  if (!found || (seen && Score(*found) <= kBetter * std::max(0.0, Score(*seen)))) return;
+  seen = found;
+  equations = others;
 }
 
 FloorSamples FloorTracker::samples() const {
@@ -165,7 +170,7 @@ void FloorTracker::TakeSamples(const DepthView& depth, const std::vector<std::ui
   }
 }
 
-std::optional<FloorTracker::Slopes> FloorTracker::Search() {
+std::optional<FloorTracker::Slopes> FloorTracker::Search() const {
   if (static_cast<int>(ray_x_.size()) < kLeastSamples) return std::nullopt;
   struct Finalist {
     double score = 0.0;

@@ -67,7 +67,8 @@ class FloorTracker {
   using Slopes = Eigen::Vector3d;  ///< slope_x, slope_y, fixed of an InversePlane.
 
   void TakeSamples(const DepthView& depth, const std::vector<std::uint8_t>& is_sound);
-  std::optional<Slopes> Search();
+  void TakeBetter(std::optional<Slopes>& seen, Equations& equations) const;
+  std::optional<Slopes> Search() const;
   std::optional<Slopes> Hypothesis(std::uint64_t number) const;
   int SampleAt(int column, int row) const;  ///< -1 = none.
   std::optional<Slopes> Refined(Slopes slopes, Equations& equations) const;

@@ -163,7 +163,8 @@ void PeopleFinder::Link(const DepthView& depth, const std::vector<std::uint8_t>&
 }
 
 void PeopleFinder::Group(const DepthView& depth) {
-  groups_.Form(config_.shape, pieces_, territory_.OwnersOf(runs_, pieces_.count(), kSeedShare));
+  groups_.Form(config_.shape, pieces_, territory_.OwnersOf(runs_, pieces_.count(), kSeedShare),
+               has_floor_ ? std::optional(0.0) : std::nullopt);
   evidences_.Gather(depth, room_, runs_, groups_.group_of_core(), groups_.cores());
 }
 

@@ -41,9 +41,9 @@ struct PeopleRegions {
 struct PeopleFinderConfig {
   double near_m = 0.4;     ///< Nobody is nearer
   double far_m = 6.0;      ///< or farther.
-  double lowest_m = 0.03;  ///< Above the floor: below it are the floor and its noise.
+  double lowest_m = 0.02;  ///< Above the floor: below it are the floor and its noise.
   double highest_m = 2.3;
-  double join_fixed_m = 0.015;    ///< Step in depth within one surface: this,
+  double join_fixed_m = 0.03;     ///< Step in depth within one surface: this,
   double join_sigmas = 2.0;       ///< noise,
   double join_slope = 4.0;        ///< and how steep a surface may lie, per width of a pixel.
   double least_piece_m2 = 0.002;  ///< Smaller surfaces are no part of anybody.

@@ -58,11 +58,12 @@ double HeadLikeness(const PersonEvidence& evidence) {
 double LikenessOf(const PersonEvidence& evidence, const SurfaceShape& shape, double top_m) {
   // Side views are narrow, and little is seen of who is partly hidden.
   const double wide = AtLeast(0.3, Ramp(evidence.wide_share, 0.2, 0.5));
-  const double area = AtLeast(0.3, Ramp(shape.area_m2, 0.08, 0.28));
+  const bool is_cut = evidence.is_cut_above || evidence.is_cut_below;
+  const double area = AtLeast(0.3, Ramp(shape.area_m2, 0.08, is_cut ? 0.15 : 0.28));
   return Ramp(evidence.round_share, 0.05, 0.35) * Ramp(evidence.straight_share, 0.7, 0.4) *
          Ramp(evidence.broken_share, 0.35, 0.2) * Ramp(evidence.hanging_share, 0.7, 0.3) *
-         Ramp(evidence.runs_per_row, 5.5, 3.5) * Ramp(top_m, 0.3, 0.8) * HeadLikeness(evidence) *
-         wide * area;
+         Ramp(evidence.runs_per_row, 5.5, 3.5) *
+         Ramp(top_m, 0.3, evidence.is_cut_below ? 0.5 : 0.8) * HeadLikeness(evidence) * wide * area;
 }
 
 PersonEvidences::PersonEvidences() {
@@ -101,6 +102,7 @@ void PersonEvidences::Add(const DepthView& depth, const RoomFrame& room, const S
   const double width_m = length * point_m.z() / depth.camera().focal_px.x();
   evidence.wide_share += width_m > kTrunk_m ? length : 0;
   evidence.is_cut_above = evidence.is_cut_above || run.row_px <= 1;
+  evidence.is_cut_below = evidence.is_cut_below || run.row_px >= depth.height_px() - 2;
   const double area_m2 = width_m * point_m.z() / depth.camera().focal_px.y();
   if (shape.highest_m.z() - height_m < kHeadHeight_m) {
     evidence.head_width_m += area_m2 / kHeadHeight_m;

@@ -16,7 +16,8 @@ struct PersonEvidence {
   double hanging_share = 0.0;  ///< Of the lowest part: nothing stands below it but what is farther.
   double wide_share = 0.0;     ///< In rows as wide as trunks, or wider.
   double runs_per_row = 0.0;  ///< Limbs break a row into few pieces, leaves and table legs do more.
-  bool is_cut_above = false;  ///< By the upper border of the picture.
+  bool is_cut_above = false;  ///< By the upper border of the picture,
+  bool is_cut_below = false;  ///< or the lower one.
 };
 
 /// How much it speaks for a person who looks so: 0 not at all, 1 nothing against it. `top_m`:

@@ -42,7 +42,7 @@ bool IsTooLarge(const PersonShapeConfig& config, const SurfaceShape& shape) {
   const double span_m = std::max(extent_m.x(), extent_m.y());
   const double across_m = 4.0 * AcrossFloor(shape);  // Of an even spread, and a bit.
   return shape.area_m2 > config.largest_area_m2 || span_m > config.largest_span_m ||
-         across_m > config.largest_depth_m || shape.highest_m.z() > config.highest_top_m;
+         across_m > config.largest_depth_m || shape.Extent().z() > config.highest_top_m;
 }
 
 bool IsFlat(const PersonShapeConfig& config, const SurfaceShape& shape) {
@@ -52,9 +52,10 @@ bool IsFlat(const PersonShapeConfig& config, const SurfaceShape& shape) {
   return solver.eigenvalues()[0] < config.flat_m * config.flat_m + noise_m2;
 }
 
-bool MayBePerson(const PersonShapeConfig& config, const SurfaceShape& shape) {
+bool MayBePerson(const PersonShapeConfig& config, const SurfaceShape& shape, double ground_m) {
+  const double top_m = shape.highest_m.z() - ground_m;
   return shape.area_m2 >= config.least_area_m2 && !IsTooLarge(config, shape) &&
-         shape.highest_m.z() >= config.lowest_top_m &&
+         top_m >= config.lowest_top_m && top_m <= config.highest_top_m &&
          shape.Extent().z() >= config.least_height_m && !IsFlat(config, shape);
 }
 
@@ -66,7 +67,7 @@ PersonGroups::PersonGroups() {
 }
 
 void PersonGroups::Form(const PersonShapeConfig& config, const SurfacePieces& pieces,
-                        const std::vector<std::uint8_t>& owners) {
+                        const std::vector<std::uint8_t>& owners, std::optional<double> ground_m) {
   joined_.clear();
   roots_.clear();
   owner_of_root_.assign(owners.begin(), owners.end());
@@ -79,7 +80,7 @@ void PersonGroups::Form(const PersonShapeConfig& config, const SurfacePieces& pi
   }
   JoinOwned(owners);
   JoinPieces(config, pieces);
-  Number(config, pieces);
+  Number(config, pieces, ground_m);
 }
 
 void PersonGroups::JoinOwned(const std::vector<std::uint8_t>& owners) {
@@ -152,7 +153,8 @@ bool PersonGroups::MayJoin(const PersonShapeConfig& config, int a, int b) const 
   return !IsTooLarge(config, both);
 }
 
-void PersonGroups::Number(const PersonShapeConfig& config, const SurfacePieces& pieces) {
+void PersonGroups::Number(const PersonShapeConfig& config, const SurfacePieces& pieces,
+                          std::optional<double> ground_m) {
   shapes_.clear();
   cores_.clear();
   owners_.clear();
@@ -160,7 +162,10 @@ void PersonGroups::Number(const PersonShapeConfig& config, const SurfacePieces& 
   group_of_core_.assign(static_cast<std::size_t>(pieces.count()), -1);
   for (int i = 0; i < pieces.count(); ++i) {
     const auto at = static_cast<std::size_t>(i);
-    if (Root(i) != i || (owner_of_root_[at] == 0 && !MayBePerson(config, joined_[at]))) continue;
+    if (Root(i) != i ||
+        (owner_of_root_[at] == 0 &&
+         !MayBePerson(config, joined_[at], ground_m.value_or(joined_[at].lowest_m.z()))))
+      continue;
     for (int piece = 0; piece < pieces.count(); ++piece) {
       if (Root(piece) == i) groups_[static_cast<std::size_t>(piece)] = count();
     }

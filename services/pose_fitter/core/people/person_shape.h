@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/config/config.h"
@@ -33,8 +34,8 @@ struct PersonShapeConfig {
   void Validate() const;
 };
 
-/// Whether a surface, or several that belong together, may be one person.
-bool MayBePerson(const PersonShapeConfig& config, const SurfaceShape& shape);
+/// Whether a surface, or several that belong together, may be one person on ground of this height.
+bool MayBePerson(const PersonShapeConfig& config, const SurfaceShape& shape, double ground_m);
 
 /// Whether no person may be so large; parts of people are smaller.
 bool IsTooLarge(const PersonShapeConfig& config, const SurfaceShape& shape);
@@ -47,9 +48,10 @@ class PersonGroups {
  public:
   PersonGroups();
   /// `owners`: per piece, whose it is known to be, 0 = not known. Pieces of one owner are one group
-  /// of whatever shape; those of two never are.
+  /// of whatever shape; those of two never are. `ground_m`: height of the floor; where it is not
+  /// known, each group stands on its lowest part.
   void Form(const PersonShapeConfig& config, const SurfacePieces& pieces,
-            const std::vector<std::uint8_t>& owners);
+            const std::vector<std::uint8_t>& owners, std::optional<double> ground_m);
 
   int count() const { return static_cast<int>(shapes_.size()); }
   const SurfaceShape& shape(int group) const { return shapes_[static_cast<std::size_t>(group)]; }
@@ -68,7 +70,8 @@ class PersonGroups {
   void Join(int a, int b);
   void JoinOwned(const std::vector<std::uint8_t>& owners);
   void JoinPieces(const PersonShapeConfig& config, const SurfacePieces& pieces);
-  void Number(const PersonShapeConfig& config, const SurfacePieces& pieces);
+  void Number(const PersonShapeConfig& config, const SurfacePieces& pieces,
+              std::optional<double> ground_m);
 
   struct Pair {
     float cost;

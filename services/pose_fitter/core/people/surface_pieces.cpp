@@ -171,31 +171,41 @@ void SurfacePieces::Touch(int a, int b, float step_m) {
 
 void SurfacePieces::FindContacts(const DepthView& depth, const SurfaceRuns& runs) {
   std::fill(contacts_.begin(), contacts_.end(), Contact{});
-  const auto& all = runs.runs();
-  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
-    const SurfaceRun& run = all[static_cast<std::size_t>(i)];
-    if (run.component < 0) continue;
-    const float z_first = depth.z_m(run.begin_px, run.row_px);
-    for (int j = i - 1; j >= runs.RowBegin(run.row_px); --j) {
-      const SurfaceRun& left = all[static_cast<std::size_t>(j)];
-      if (run.begin_px - left.end_px > kGap_px) break;
-      if (left.component < 0) continue;
-      if (left.component != run.component) {
-        Touch(left.component, run.component, depth.z_m(left.end_px - 1, run.row_px) - z_first);
-      }
-      break;
+  for (int i = 0; i < static_cast<int>(runs.runs().size()); ++i) {
+    if (runs.runs()[static_cast<std::size_t>(i)].component < 0) continue;
+    TouchLeft(depth, runs, i);
+    TouchAbove(depth, runs, i);
+  }
+}
+
+/// The nearest run to the left, if it is near.
+void SurfacePieces::TouchLeft(const DepthView& depth, const SurfaceRuns& runs, int number) {
+  const SurfaceRun& run = runs.runs()[static_cast<std::size_t>(number)];
+  for (int i = number - 1; i >= runs.RowBegin(run.row_px); --i) {
+    const SurfaceRun& left = runs.runs()[static_cast<std::size_t>(i)];
+    if (run.begin_px - left.end_px > kGap_px) return;
+    if (left.component < 0) continue;
+    if (left.component != run.component) {
+      Touch(left.component, run.component,
+            depth.z_m(left.end_px - 1, run.row_px) - depth.z_m(run.begin_px, run.row_px));
     }
-    const int row = run.row_px - kGapRows_px;
-    if (row < 0) continue;
-    for (int j = runs.RowBegin(row); j < runs.RowBegin(row + 1); ++j) {
-      const SurfaceRun& above = all[static_cast<std::size_t>(j)];
-      if (above.begin_px >= run.end_px) break;
-      const int begin = std::max(above.begin_px, run.begin_px);
-      const int end = std::min(above.end_px, run.end_px);
-      if (above.component < 0 || above.component == run.component || begin >= end) continue;
-      const int u = (begin + end) / 2;
-      Touch(above.component, run.component, depth.z_m(u, row) - depth.z_m(u, run.row_px));
-    }
+    return;
+  }
+}
+
+/// All runs above, beyond what a border makes unsound.
+void SurfacePieces::TouchAbove(const DepthView& depth, const SurfaceRuns& runs, int number) {
+  const SurfaceRun& run = runs.runs()[static_cast<std::size_t>(number)];
+  const int row = run.row_px - kGapRows_px;
+  if (row < 0) return;
+  for (int i = runs.RowBegin(row); i < runs.RowBegin(row + 1); ++i) {
+    const SurfaceRun& above = runs.runs()[static_cast<std::size_t>(i)];
+    if (above.begin_px >= run.end_px) return;
+    const int begin = std::max(above.begin_px, run.begin_px);
+    const int end = std::min(above.end_px, run.end_px);
+    if (above.component < 0 || above.component == run.component || begin >= end) continue;
+    const int u = (begin + end) / 2;
+    Touch(above.component, run.component, depth.z_m(u, row) - depth.z_m(u, run.row_px));
   }
 }
 

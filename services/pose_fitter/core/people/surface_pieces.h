@@ -74,6 +74,8 @@ class SurfacePieces {
   void FindAtTops(const DepthView& depth, const RoomFrame& room,
                   const std::vector<std::uint8_t>& is_level, const SurfaceRuns& runs);
   void FindContacts(const DepthView& depth, const SurfaceRuns& runs);
+  void TouchLeft(const DepthView& depth, const SurfaceRuns& runs, int number);
+  void TouchAbove(const DepthView& depth, const SurfaceRuns& runs, int number);
   void Touch(int a, int b, float step_m);
 
   std::vector<float> areas_;  ///< Per component.
