@@ -125,6 +125,8 @@ def test_a_sequence_without_anybody_is_lost_and_teaches_nothing(kinect: Any) -> 
     report = kinect(2, lambda name, _, joints: [] if "_s1_" in name else [_person(joints)])
     assert report["summary"]["sequences_lost"] == 1 and report["summary"]["lost_frames_percent"] == 50.0
     rows = {row["name"]: row for row in report["sequences"]}
+    assert report["summary"]["found_p95_with_offsets_m"] == 0.0 and report["summary"]["p95_with_offsets_m"] is None
+    assert rows["a1_s1_t1"]["found_median_with_offsets_m"] is None
     assert rows["a1_s1_t1"]["median_m"] is None and rows["a1_s2_t1"]["median_with_offsets_m"] == 0.0
     assert any("sequences lost: 1 of 2" in line for line in pose_mhad.lines(report))
 
