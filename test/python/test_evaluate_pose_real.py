@@ -131,6 +131,19 @@ def test_a_sequence_without_anybody_is_lost_and_teaches_nothing(kinect: Any) -> 
     assert any("sequences lost: 1 of 2" in line for line in pose_mhad.lines(report))
 
 
+def test_a_joint_that_is_wrong_teaches_nothing(kinect: Any) -> None:
+    def moved(name: str, _: int, joints: np.ndarray) -> list[FoundPerson]:
+        places = joints.copy()
+        if "_s1_" in name:
+            places[:, 0][_KINECT.index("right_wrist")] += 0.4
+        return [_person(places)]
+
+    joints = kinect(2, moved)["summary"]["joints"]
+    assert joints["left_wrist"]["found_p95_with_offsets_m"] == 0.0
+    assert joints["right_wrist"]["found_p95_with_offsets_m"] == pytest.approx(0.4, abs=1e-4)
+    assert joints["right_wrist"]["median_with_offsets_m"] == pytest.approx(0.2, abs=1e-4)  # One of two has none.
+
+
 # A man who turns.
 
 

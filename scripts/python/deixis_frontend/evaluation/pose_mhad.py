@@ -30,6 +30,7 @@ _FPS = 30.0
 _ROWS, _COLUMNS = 240, 320
 # The pictures are mirrored: with them, the principal point goes from 160 to 319 - 160.
 _CAMERA = DepthCamera((285.63, 285.63), (159.0, 120.0), (_COLUMNS, _ROWS))
+_LARGEST_OFFSET_M = 0.3  # the SDK's hip_center is more than 0.2 m above ours
 _BODY_LOST = 0.5  # share of frames from which on a sequence counts as lost
 
 
@@ -127,9 +128,16 @@ def _offsets(people: list[JudgedPerson]) -> np.ndarray:
     parts = []
     for person in people:
         in_limb = np.einsum("fjba,fjb->fja", person.rotations, person.true_m - person.found_m)
-        parts.append(in_limb[~_is_lost(person)])  # Who is lost teaches nothing.
-    together = np.concatenate(parts) if parts else np.zeros((0, len(_JOINTS), 3))
-    return np.median(together, axis=0) if len(together) else np.zeros((len(_JOINTS), 3))
+        # Who is lost teaches nothing, and neither does a joint that is farther off than any offset is.
+        is_right = ~_is_lost(person)[:, None] & (person.errors_m <= _LARGEST_OFFSET_M)
+        parts.append(np.where(is_right[..., None], in_limb, np.nan))
+    together = np.concatenate([np.zeros((0, len(_JOINTS), 3)), *parts])
+    offsets = np.zeros((len(_JOINTS), 3))
+    for j in range(len(_JOINTS)):
+        known = together[np.isfinite(together[:, j]).all(axis=1), j]
+        if len(known):
+            offsets[j] = np.median(known, axis=0)
+    return offsets
 
 
 def _row(one: _Sequence, after: np.ndarray) -> dict[str, Any]:
