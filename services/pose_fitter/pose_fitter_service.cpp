@@ -46,13 +46,16 @@ void PoseFitterService::OnStereo(const images::StereoImage& stereo) {
   output_.Publish(config_.poses_channel, poses);
 }
 
+// All models once a second, and one that changed or is new before the first pose of it.
 void PoseFitterService::PublishModels(Timestamp time) {
-  if (models_time_ && SecondsBetween(*models_time_, time) < kModelPeriod_s &&
-      !(time < *models_time_)) {
-    return;
+  const bool is_due = !models_time_ || time < *models_time_ ||
+                      SecondsBetween(*models_time_, time) >= kModelPeriod_s;
+  if (is_due) {
+    models_time_ = time;
+    known_models_.clear();
   }
-  models_time_ = time;
   for (auto& model : fitter_.Models()) {
+    if (!known_models_.insert({model.person_id, model.body.id()}).second) continue;
     model.time = time;
     output_.Publish(config_.model_channel, model);
   }

@@ -1,6 +1,8 @@
 #pragma once
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "common/images/stereo_image.h"
 #include "common/transport/bus.h"
@@ -43,6 +45,7 @@ class PoseFitterService {
   PoseFitter fitter_;
   std::optional<geometry::StereoCalibration> calibration_;
   std::optional<Timestamp> models_time_;
+  std::set<std::pair<int, std::int64_t>> known_models_;  ///< Person and model, since then.
 };
 
 }  // namespace deixis::pose_fitter

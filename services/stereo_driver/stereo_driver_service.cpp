@@ -3,6 +3,7 @@
 #include "common/capture/pushed_source.h"
 #include "common/capture/system_clocks.h"
 #include "common/logging/log.h"
+#include "common/messages/body_poses.h"
 #include "common/messages/camera_pose.h"
 #include "common/messages/depth_image.h"
 #include "common/messages/rgbd_image.h"
@@ -54,6 +55,7 @@ void StereoDriverServiceConfig::Validate() const {
                                      {"kinect_channel", kinect_channel},
                                      {"pose_channel", pose_channel},
                                      {"dimos.depth_channel", dimos.depth_channel}});
+  if (!poses_channel.empty()) channels.push_back({"poses_channel", poses_channel});
   for (const auto& [key, fault] : transport::ChannelFaults(channels)) {
     faults.Require(false, key, fault);
   }
@@ -99,6 +101,11 @@ std::unique_ptr<FrameSource> StereoDriverService::SourceOf(const StereoDriverSer
 }
 
 void StereoDriverService::Listen(transport::Bus& input) {
+  if (!config_.poses_channel.empty() && config_.driver.LooksForPeople()) {
+    input.Subscribe<body_model::BodyPoses>(
+        config_.poses_channel, Delivery::kEvery,
+        [this](const body_model::BodyPoses& poses) { driver_.Hear(poses); });
+  }
   if (config_.driver.source.kind == FrameSourceKind::kPairChannel) {
     input.Subscribe<images::StereoPair>(
         config_.pair_channel, Delivery::kLatest,
@@ -195,6 +202,7 @@ transport::Health StereoDriverService::health() const {
   health.Say(driver_.calibration_remark());
   health.SayCount(status.pictures.corrupt, "corrupt pictures");
   health.SayCount(status.pictures.skipped, "skipped pictures");
+  health.SayCount(driver_.poses_elsewhere(), "poses of another picture or frame");
   const SideNames names = NamesOf(config_.driver.source.kind);
   health.SayCount(status.unmatched_left,
                   names.left + " pictures without a " + names.right + " one");

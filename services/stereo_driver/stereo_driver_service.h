@@ -30,8 +30,9 @@ struct StereoDriverServiceConfig {
   std::string pair_channel = "STEREO_PAIR";     ///< Pairs as taken: to here, or from here.
   std::string kinect_channel = "KINECT_FRAME";  ///< source.kind kinect_channel: from here.
   std::string pose_channel = "CAMERA_POSE";     ///< source.kind dimos: the camera's pose, to here.
-  DimosConfig dimos;                            ///< source.kind dimos: from here.
-  bool publishes_pairs = false;                 ///< Pairs go out too, so that a log can keep them.
+  std::string poses_channel = "BODY_POSES";  ///< Where people are, from here; empty = nobody says.
+  DimosConfig dimos;                         ///< source.kind dimos: from here.
+  bool publishes_pairs = false;              ///< Pairs go out too, so that a log can keep them.
   StereoDriverConfig driver;
 
   template <typename Visitor>
@@ -41,6 +42,7 @@ struct StereoDriverServiceConfig {
     v("pair_channel", pair_channel);
     v("kinect_channel", kinect_channel);
     v("pose_channel", pose_channel);
+    v("poses_channel", poses_channel);
     v("dimos", dimos);
     v("publishes_pairs", publishes_pairs);
     driver.Visit(v);  // On the same level: `source.kind`, not `driver.source.kind`.

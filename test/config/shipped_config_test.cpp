@@ -9,6 +9,7 @@
 #include "services/gesture_recogniser/gesture_recogniser_service.h"
 #include "services/hand_tracker/hand_tracker_service.h"
 #include "services/object_detector/object_detector_service.h"
+#include "services/pose_fitter/pose_fitter_service.h"
 #include "services/stereo_driver/stereo_driver_service.h"
 #include "services/viewer/viewer_service.h"
 
@@ -88,6 +89,9 @@ TEST(ShippedConfig, HandTracker) {
 }
 TEST(ShippedConfig, GestureRecogniser) {
   ExpectDefaults<gesture_recogniser::GestureRecogniserServiceConfig>("gesture_recogniser.yaml");
+}
+TEST(ShippedConfig, PoseFitter) {
+  ExpectDefaults<pose_fitter::PoseFitterServiceConfig>("pose_fitter.yaml");
 }
 TEST(ShippedConfig, Viewer) { ExpectDefaults<viewer::ViewerServiceConfig>("viewer.yaml"); }
 

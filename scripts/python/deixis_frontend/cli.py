@@ -49,6 +49,7 @@ COMMANDS: dict[str, Command] = {
     "body": Command(f"{_PACKAGE}.body", "a person's sizes and joint limits; picture, URDF, mesh"),
     "train-gestures": Command("deixis_frontend.training.gestures", "learn gesture models"),
     "train-hands": Command("deixis_frontend.training.hands", "learn what hands look like"),
+    "train-body": Command("deixis_frontend.training.body", "learn joints and surfaces of clothed people"),
 }
 
 

@@ -1,8 +1,7 @@
-// Finds people and floor in sequences whose truth is known, and prints how well as a table.
+// Finds people and floor in sequences whose truth is known, and prints how well: a JSON object per
+// sequence, and one of all.
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -21,7 +20,6 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::vector<fs::path> sequences;
   fs::path logs;
-  fs::path json;
   fs::path pictures;
   int width_px = 320;
 };
@@ -39,7 +37,6 @@ Arguments Parse(int argc, char** argv) {
                  "true one");
   app.add_option("--width", arguments.width_px, "Columns of the true depth")
       ->check(CLI::Range(16, 4096));
-  app.add_option("--json", arguments.json, "Write the figures here");
   app.add_option("--pictures", arguments.pictures, "Write pictures of depth and regions here");
   try {
     app.parse(argc, argv);
@@ -74,23 +71,6 @@ nlohmann::json Figures(const std::string& name, const PeopleScore& score) {
       {"height_p95_m", quantile(score.heights_m, 0.95)},
       {"ms_median", quantile(score.times_ms, 0.5)}};
 }
-
-void Print(const nlohmann::json& row) {
-  const auto value = [&](const char* key, double scale = 1.0) {
-    return row[key].is_null() ? -1.0 : scale * row[key].get<double>();
-  };
-  std::printf("%-12s%7d%7d/%-5d%8.2f%8.2f%9.2f%7d%8d%8.2f%6.2f%8.1f%6.1f%8.3f\n",
-              row["name"].get<std::string>().c_str(), row["frames"].get<int>(),
-              row["found_people"].get<int>(), row["people"].get<int>(), value("recall_percent"),
-              value("precision_percent"), value("unsound_percent"), row["false_regions"].get<int>(),
-              row["floors"].get<int>(), value("tilt_median_deg"), value("tilt_p95_deg"),
-              value("height_median_m", 1000.0), value("height_p95_m", 1000.0), value("ms_median"));
-  std::fflush(stdout);
-}
-
-constexpr const char* kHeading =
-    "recording    frames   found/of   recall  precis.  unsound  false  floors  tilt deg "
-    "med,p95  height mm med,p95   ms\n";
 
 void WritePicture(const fs::path& folder, const std::string& name, const PeopleFrame& frame,
                   const PeopleRegions& found) {
@@ -147,23 +127,14 @@ PeopleScore Evaluate(const fs::path& folder, const Arguments& arguments) {
 }
 
 void RunAll(const Arguments& arguments) {
-  std::fputs(kHeading, stdout);
-  nlohmann::json rows = nlohmann::json::array();
   PeopleScore all;
   for (const fs::path& folder : arguments.sequences) {
     const PeopleScore score = Evaluate(folder, arguments);
-    rows.push_back(Figures(folder.filename().string(), score));
-    Print(rows.back());
+    std::cout << Figures(folder.filename().string(), score).dump() << std::endl;
     all.Add(score);
   }
-  const nlohmann::json summary = Figures("all", all);
-  Print(summary);
-  if (arguments.json.empty()) return;
-  std::ofstream file(arguments.json);
-  file << nlohmann::json{{"sequences", rows}, {"summary", summary}}.dump(2) << '\n';
-  if (!file.flush()) {
-    throw config::ConfigError(arguments.json.string() + ": cannot be written");
-  }
+  std::cout << Figures("all", all).dump() << '\n';
+  program::FinishOutput(std::cout);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ using body_model::BodyModel;
 constexpr std::size_t kMostFrames = 60;
 constexpr std::size_t kMostPoints = 500;  // Of a frame.
 constexpr double kReach_m = 0.08;
+constexpr int kRounds = 2;
 constexpr double kSigma_m = 0.01;  // True depth, but limbs are no cylinders.
 constexpr const char* kLimbs[] = {"upper_arm", "lower_arm", "thigh", "shank", "clavicle"};
 
@@ -66,10 +67,16 @@ CalibrationScore ScoreCalibration(const body_model::BodyPlan& plan_of_others,
   score.expected_error_m = LengthErrors(expected, person.tree);
   score.expected_rms_m = MeasureSurface(expected, surfaces).rms_m;
   const ShapeParameters parameters(expected, plan_of_others, estimate);
-  const ShapeResult result = CalibrateShape(parameters, ShapeFrames(expected, surfaces), {});
-  score.is_refused = !result.shape;
-  if (score.is_refused) return score;
-  for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].pose = result.shape->poses[i];
+  // Which limb a point belongs to follows from the shape, too.
+  BodyModel model = expected;
+  ShapeResult result;
+  for (int round = 0; round < kRounds; ++round) {
+    result = CalibrateShape(parameters, ShapeFrames(model, surfaces), {});
+    score.is_refused = !result.shape;
+    if (score.is_refused) return score;
+    model = result.shape->model;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].pose = result.shape->poses[i];
+  }
   score.calibrated_error_m = LengthErrors(result.shape->model, person.tree);
   score.calibrated_rms_m = MeasureSurface(result.shape->model, surfaces).rms_m;
   return score;

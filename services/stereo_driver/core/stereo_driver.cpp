@@ -108,7 +108,7 @@ void StereoDriverConfig::Check(config::Faults& faults) const {
                  "start_time_utime",
                  "must be -1 (chosen by the pace) or a time in microseconds, 2^59 at most");
   source.Check(faults);
-  faults.Require(MeasuresDepth(source.kind) || matcher.match_size == Size::kFull ||
+  faults.Require(MeasuresDepth(source.kind) || matcher.match_size != MatchSize::kHalf ||
                      matcher.depth_size == Size::kHalf,
                  "matcher.depth_size", "must be half when matcher.match_size is");
   faults.Require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", "must lie in 1..100");
@@ -116,12 +116,17 @@ void StereoDriverConfig::Check(config::Faults& faults) const {
                  "must lie in 1..100");
 }
 
+bool StereoDriverConfig::LooksForPeople() const {
+  return !MeasuresDepth(source.kind) && matcher.match_size == MatchSize::kPeople;
+}
+
 StereoDriver::StereoDriver(const StereoDriverConfig& config, std::unique_ptr<FrameSource> source,
                            KeepPairs keep_pairs)
     : config_(config),
       source_(std::move(source)),
       keep_pairs_(keep_pairs),
-      pacer_(config.pace, config.start_time_utime) {
+      pacer_(config.pace, config.start_time_utime),
+      people_(config.matcher.people, config.camera) {
   if (source_) is_live_ = source_->status().pictures.is_live;
   if (MeasuresDepth(config.source.kind)) {
     const DepthCameraConfig& depth_camera = config.depth_camera;
@@ -171,7 +176,8 @@ std::optional<StereoOutput> StereoDriver::ConvertAt(Timestamp time, Frame frame)
 
 StereoOutput StereoDriver::Convert(const images::StereoPair& pair) {
   PrepareRig(pair.left.bgr.size());
-  StereoOutput output = Packed(matcher_->Measure(pair), pair.left.time);
+  const Windows people = people_.At(pair.left.time, calibration_.rectified);
+  StereoOutput output = Packed(matcher_->Measure(pair, people), pair.left.time);
   if (keep_pairs_ == KeepPairs::kYes) output.pair = Encoded(pair, config_);
   return output;
 }

@@ -12,6 +12,7 @@
 #include "services/stereo_driver/core/calibration/registration_calibration.h"
 #include "services/stereo_driver/core/calibration/rig_calibration.h"
 #include "services/stereo_driver/core/depth_camera/depth_camera.h"
+#include "services/stereo_driver/core/matching/people/said_people.h"
 #include "services/stereo_driver/core/matching/stereo_matcher.h"
 #include "services/stereo_driver/core/sources/sources.h"
 
@@ -63,6 +64,8 @@ struct StereoDriverConfig {
     v("pair_jpeg_quality", pair_jpeg_quality);
   }
   void Check(config::Faults& faults) const;
+  /// Whether it matters where people are.
+  bool LooksForPeople() const;
 };
 
 /// A frame that cannot become a picture with depth, where others of its source may.
@@ -128,6 +131,11 @@ class StereoDriver {
   /// not known. Before the first call it is as in the configuration.
   void UseMount(const std::optional<geometry::CameraMount>& mount);
 
+  /// Where people are, as a tracker says; counts with MatchSize::kPeople only.
+  void Hear(const body_model::BodyPoses& poses) { people_.Hear(poses); }
+  /// Poses in another picture or frame than what this driver publishes; they change nothing.
+  std::int64_t poses_elsewhere() const { return people_.elsewhere(); }
+
   FrameSourceStatus status() const;
   /// What is wrong with the playing of a recording; empty when nothing is.
   std::string pace_trouble() const { return pacer_.trouble(); }
@@ -171,6 +179,7 @@ class StereoDriver {
   std::string remark_;
   std::string registration_fault_;
   std::optional<StereoMatcher> matcher_;
+  SaidPeople people_;
   std::optional<DepthCamera> depth_camera_;
   cv::Size depth_camera_size_;  ///< Of its depth.
   std::optional<geometry::CameraMount> mount_;

@@ -82,12 +82,20 @@ void DepthScore::AddPixel(double focal_baseline, double true_m, std::optional<do
   band_errors_m[static_cast<std::size_t>(band - kBandEdges_m.begin())].Add(error_m);
 }
 
+void DepthScore::AddBesideBody(double body_m, double true_m, std::optional<double> measured_m) {
+  ++beside;
+  // Half-way in disparity: that is what is matched.
+  if (measured_m && 2.0 / *measured_m > 1.0 / body_m + 1.0 / true_m) ++fattened;
+}
+
 void DepthScore::Add(const DepthScore& other) {
   truth += other.truth;
   valid += other.valid;
   bad += other.bad;
   shared += other.shared;
   bad_shared += other.bad_shared;
+  beside += other.beside;
+  fattened += other.fattened;
   errors_px.Add(other.errors_px);
   errors_m.Add(other.errors_m);
   for (std::size_t i = 0; i < band_errors_m.size(); ++i) {
@@ -99,7 +107,8 @@ void DepthScore::Add(const DepthScore& other) {
 std::string CsvHeading() {
   std::ostringstream line;
   line << "sequence,column,frames,pixels,valid_percent,error_median_m,error_p90_m,bad2px_percent,"
-          "lost_percent,bad2px_shared_percent,error_median_px,error_p90_px,ms_median";
+          "lost_percent,bad2px_shared_percent,fattened_percent,error_median_px,error_p90_px,ms_"
+          "median";
   double from_m = 0.0;
   for (const double to_m : DepthScore::kBandEdges_m) {
     line << ",error_median_m_" << from_m << "_to_" << to_m;
@@ -116,8 +125,9 @@ std::string CsvLine(const std::string& sequence, const std::string& column,
        << Percent(score.valid, score.truth) << ',' << Text(score.errors_m.Quantile(0.5)) << ','
        << Text(score.errors_m.Quantile(0.9)) << ',' << Percent(score.bad, score.valid) << ','
        << Percent(score.truth - score.valid + score.bad, score.truth) << ','
-       << Percent(score.bad_shared, score.shared) << ',' << Text(score.errors_px.Quantile(0.5))
-       << ',' << Text(score.errors_px.Quantile(0.9)) << ',' << Median(score.times_ms);
+       << Percent(score.bad_shared, score.shared) << ',' << Percent(score.fattened, score.beside)
+       << ',' << Text(score.errors_px.Quantile(0.5)) << ',' << Text(score.errors_px.Quantile(0.9))
+       << ',' << Median(score.times_ms);
   for (const ErrorHistogram& band : score.band_errors_m) {
     line << ',' << Text(band.Quantile(0.5));
   }

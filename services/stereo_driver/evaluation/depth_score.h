@@ -35,6 +35,8 @@ struct DepthScore {
   /// The same pixel once more when the compared way has measured it too: errors of all that a way
   /// dares to say cannot be compared, since the pixels that only one dares are the hard ones.
   void AddShared(double true_px, double measured_px);
+  /// One pixel beside a body, where something farther is seen: whether it got the body's depth.
+  void AddBesideBody(double body_m, double true_m, std::optional<double> measured_m);
   void AddTime(double ms) { times_ms.push_back(ms); }
   void Add(const DepthScore& other);
 
@@ -43,6 +45,8 @@ struct DepthScore {
   std::int64_t bad = 0;         ///< Of these: wrong by more than kBad_px.
   std::int64_t shared = 0;      ///< Pixels that the compared way has measured too; 0 = not counted.
   std::int64_t bad_shared = 0;  ///< Of these: wrong by more than kBad_px.
+  std::int64_t beside = 0;      ///< Pixels beside a body.
+  std::int64_t fattened = 0;    ///< Of these: with a depth nearer to the body's than to their own.
   ErrorHistogram errors_px;
   ErrorHistogram errors_m;
   std::vector<ErrorHistogram> band_errors_m;  ///< By true distance, kBandEdges_m between them.

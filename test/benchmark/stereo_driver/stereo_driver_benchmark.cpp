@@ -123,6 +123,60 @@ void Refine(benchmark::State& state) {
 }
 BENCHMARK(Refine)->Unit(benchmark::kMillisecond);
 
+/// A person's size before the wall, 50 px to the left in the right picture.
+const cv::Rect kSomebody = {240, 60, 130, 400};
+
+images::StereoPair PairWithSomebody() {
+  images::StereoPair pair = Pair();
+  cv::Mat somebody(kSomebody.size(), CV_8UC3);
+  cv::RNG random(2);
+  random.fill(somebody, cv::RNG::UNIFORM, 0, 255);
+  cv::GaussianBlur(somebody, somebody, {0, 0}, 1.5);
+  somebody.copyTo(pair.left.bgr(kSomebody));
+  somebody.copyTo(pair.right.bgr(kSomebody - cv::Point(50, 0)));
+  return pair;
+}
+
+geometry::StereoCalibration RigWithoutDistortion() {
+  geometry::StereoCalibration rig = Rig();
+  rig.left.distortion = rig.right.distortion = {};
+  rig.left.distortion_model = rig.right.distortion_model = geometry::DistortionModel::kNone;
+  return rig;
+}
+
+/// From pair to depth. Arguments: match_size; 1 = said where somebody is, with 40 px around.
+void Measure(benchmark::State& state) {
+  const images::StereoPair pair = PairWithSomebody();
+  StereoMatcherConfig config;
+  config.match_size = static_cast<MatchSize>(state.range(0));
+  StereoMatcher matcher(config, RigWithoutDistortion());
+  const cv::Rect around = kSomebody - cv::Point(40, 40) + cv::Size(80, 80);
+  const Windows said = state.range(1) != 0 ? Windows{around} : Windows{};
+  for (auto _ : state) benchmark::DoNotOptimize(matcher.Measure(pair, said).depth_mm.data);
+}
+BENCHMARK(Measure)
+    ->ArgNames({"match_size", "said"})
+    ->Args({static_cast<int>(MatchSize::kHalf), 0})
+    ->Args({static_cast<int>(MatchSize::kPeople), 0})
+    ->Args({static_cast<int>(MatchSize::kPeople), 1})
+    ->Args({static_cast<int>(MatchSize::kFull), 0})
+    ->Unit(benchmark::kMillisecond);
+
+/// Rectification and cv::StereoSGBM, MODE_SGBM_3WAY, 96 disparities over the full picture.
+void MeasureByFullSgbm(benchmark::State& state) {
+  const images::StereoPair pair = PairWithSomebody();
+  Rectifier rectifier(RigWithoutDistortion());
+  const auto matcher = MakeMatcher({}, 96);
+  RectifiedPair rectified;
+  cv::Mat disparity;
+  for (auto _ : state) {
+    rectifier.Rectify(pair, rectified);
+    matcher->compute(rectified.left_grey, rectified.right_grey, disparity);
+    benchmark::DoNotOptimize(disparity.data);
+  }
+}
+BENCHMARK(MeasureByFullSgbm)->Unit(benchmark::kMillisecond);
+
 /// Disparities of all sizes, with holes.
 cv::Mat Disparities() {
   cv::setNumThreads(1);

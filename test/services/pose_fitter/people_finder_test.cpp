@@ -129,6 +129,48 @@ TEST_F(PeopleFinderTest, FindsSomebodyCutByTheBorder) {
   EXPECT_GT(Recall(1), 0.9);
 }
 
+TEST_F(PeopleFinderTest, TellsTwoWhoTouchApartByTheirSeeds) {
+  Room room;
+  room.AddStanding(-0.18, 2.5, 1);
+  room.AddStanding(0.25, 2.5, 2);
+  for (int i = 0; i < 6; ++i) room.Add(test::Ball{{-0.05 + 0.05 * i, 2.45, 1.3}, 0.06}, 1);
+  Find(room);
+  EXPECT_LT(finder_.regions().regions.size(), 2U) << "else the seeds show nothing";
+  // Where they were expected: a little beside.
+  std::vector<std::uint8_t> seeds(picture_.owner.total(), 0);
+  for (int v = 0; v < 240; ++v) {
+    for (int u = 4; u < 320; ++u) {
+      seeds[static_cast<std::size_t>(v * 320 + u)] =
+          static_cast<std::uint8_t>(3 * picture_.owner.at<std::uint8_t>(v, u - 4));
+    }
+  }
+  finder_.Find(view_, sound_.Find(view_), room.Floor(), seeds);
+  ASSERT_EQ(finder_.regions().regions.size(), 2U);
+  EXPECT_GT(Recall(1), 0.9);
+  EXPECT_GT(Recall(2), 0.9);
+  EXPECT_LT(WrongShare(), 0.05);
+  const auto& regions = finder_.regions().regions;
+  EXPECT_EQ(regions[0].seed + regions[1].seed, 3 + 6);
+}
+
+TEST_F(PeopleFinderTest, FindsWhoIsExpectedAtAWall) {
+  Room room;
+  room.wall_m = 2.6;
+  room.AddStanding(0.0, 2.55, 1);
+  Find(room);
+  EXPECT_LT(Recall(1), 0.5) << "else the seeds show nothing";
+  std::vector<std::uint8_t> seeds(picture_.owner.begin<std::uint8_t>(),
+                                  picture_.owner.end<std::uint8_t>());
+  finder_.Find(view_, sound_.Find(view_), room.Floor(), seeds);
+  EXPECT_GT(Recall(1), 0.9);
+}
+
+TEST_F(PeopleFinderTest, RefusesSeedsOfAnotherSize) {
+  Find(Room());
+  EXPECT_THROW(finder_.Find(view_, sound_.Find(view_), {}, std::vector<std::uint8_t>(7)),
+               std::logic_error);
+}
+
 TEST_F(PeopleFinderTest, SeesNobodyInAnEmptyRoom) { EXPECT_TRUE(Find(Room()).regions.empty()); }
 
 TEST_F(PeopleFinderTest, SeesNobodyInFurniture) {

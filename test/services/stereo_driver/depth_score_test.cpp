@@ -47,5 +47,17 @@ TEST(DepthScore, SharesOnlyWhatBothWaysHaveMeasured) {
   EXPECT_EQ(Cell(score, "bad2px_shared_percent"), "50");
 }
 
+TEST(DepthScore, CountsPixelsBesideBodiesThatGotTheBodysDepth) {
+  DepthScore score;
+  const double body_m = 2.0, wall_m = 4.0;
+  for (const double measured_m : {1.9, 2.0, 2.6, 2.7, 4.0}) {
+    score.AddBesideBody(body_m, wall_m, measured_m);  // Half-way in disparity is 2.67 m.
+  }
+  score.AddBesideBody(body_m, wall_m, std::nullopt);
+  EXPECT_EQ(score.beside, 6);
+  EXPECT_EQ(score.fattened, 3);
+  EXPECT_EQ(Cell(score, "fattened_percent"), "50");
+}
+
 }  // namespace
 }  // namespace deixis::stereo_driver

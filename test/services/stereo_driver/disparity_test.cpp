@@ -216,6 +216,21 @@ TEST(DisparityRefiner, MovesNothingByMoreThanAPixelHoweverWideItSmooths) {
   EXPECT_EQ(cv::norm(before, disparity, cv::NORM_INF), kDisparityScale);
 }
 
+TEST(DisparityRefiner, RefinesAWindowAsTheWholeWithoutRounding) {
+  const Layers layers = SquareBeforeWall();
+  cv::Mat whole(layers.left.size(), CV_16SC1, cv::Scalar(layers.wall_px * kDisparityScale + 4));
+  cv::Mat window_px(60, 100, CV_32FC1, cv::Scalar(layers.wall_px + 0.25));
+  DisparityRefiner refiner({});
+  refiner.RefineWindow(layers.left, layers.right, {200, 170, 100, 60}, window_px);
+  refiner.Refine(layers.left, layers.right, whole);
+  for (int y = 30; y < 50; ++y) {
+    for (int x = 30; x < 70; ++x) {
+      const float whole_px = static_cast<float>(whole.at<std::int16_t>(170 + y, 200 + x)) / 16.0F;
+      ASSERT_NEAR(window_px.at<float>(y, x), whole_px, 1.0F / 32.0F + 1e-3F) << x << " " << y;
+    }
+  }
+}
+
 TEST(DisparityRefiner, WithoutRoundsLeavesAllAsItWas) {
   const Layers layers = SquareBeforeWall();
   const cv::Mat before = Match({}, layers);

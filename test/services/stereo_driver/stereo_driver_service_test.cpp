@@ -4,6 +4,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/messages/body_poses.h"
 #include "common/messages/camera_calibration.h"
 #include "common/messages/camera_pose.h"
 #include "common/messages/depth_image.h"
@@ -402,6 +403,81 @@ TEST_F(StereoDriverServiceTest, SaysHowManyPicturesHadNoPartner) {
   while (service.Step() != program::StepResult::kFinished) {
   }
   EXPECT_THAT(service.health().text, HasSubstr("1 left pictures without a right one"));
+}
+
+class PeopleServiceTest : public StereoDriverServiceTest {
+ protected:
+  PeopleServiceTest() {
+    config_.driver.source.kind = FrameSourceKind::kPairChannel;
+    config_.driver.matcher.match_size = MatchSize::kPeople;
+    // A plane slanted a little: at full size its distances are others.
+    Plane slanted;
+    slanted.normal = Eigen::Vector3d(0.35, 0.2, 1.0).normalized();
+    pair_ = Photograph(SyntheticRig(), slanted);
+    body_model::LimbPose limb;
+    limb.proximal_m = {0.0, -0.2, 2.0};
+    limb.distal_m = {0.0, 0.2, 2.0};
+    limb.state = body_model::LimbState::kMeasured;
+    body_model::TrackedBody body;
+    body.model_id = 1;
+    body.limbs = {limb};
+    poses_.camera = poses_.frame = "STEREO";
+    poses_.bodies = {body};
+  }
+  /// The depth of the pair after what was said before.
+  cv::Mat DepthAfter(const std::vector<body_model::BodyPoses>& said) {
+    transport::Bus bus(test::Memory());
+    std::vector<images::StereoImage> received;
+    bus.Subscribe<images::StereoImage>(
+        "STEREO", transport::Delivery::kEvery,
+        [&](const images::StereoImage& stereo) { received.push_back(stereo); });
+    StereoDriverService service(config_, bus, bus);
+    for (const auto& poses : said) bus.Publish("BODY_POSES", poses);
+    test::HandleAll(bus);
+    bus.Publish("STEREO_PAIR", pair_);
+    test::HandleAll(bus);
+    health_ = service.health();
+    return received.empty() ? cv::Mat() : received[0].depth_mm;
+  }
+  int DifferencesTo(const cv::Mat& depth_mm, const std::vector<body_model::BodyPoses>& said) {
+    return cv::countNonZero(DepthAfter(said) != depth_mm);
+  }
+
+  body_model::BodyPoses poses_;
+  transport::Health health_;
+};
+
+TEST_F(PeopleServiceTest, MeasuresAtFullSizeWherePosesSayThatSomebodyIs) {
+  const cv::Mat nobody = DepthAfter({});
+  ASSERT_EQ(nobody.size(), cv::Size(160, 120));
+  EXPECT_GT(DifferencesTo(nobody, {poses_}), 100);
+  EXPECT_EQ(DifferencesTo(DepthAfter({poses_}), {poses_}), 0) << "same in, same out";
+}
+
+TEST_F(PeopleServiceTest, IsBackAtHalfSizeWhenTheyHaveLeft) {
+  const cv::Mat nobody = DepthAfter({});
+  body_model::BodyPoses left = poses_;
+  left.bodies.clear();
+  EXPECT_EQ(DifferencesTo(nobody, {poses_, left}), 0);
+}
+
+TEST_F(PeopleServiceTest, CountsPosesOfAnotherPictureAndDoesNotFollowThem) {
+  const cv::Mat nobody = DepthAfter({});
+  body_model::BodyPoses other = poses_;
+  other.camera = "CAMERA";
+  EXPECT_EQ(DifferencesTo(nobody, {other}), 0);
+  EXPECT_THAT(health_.text, HasSubstr("1 poses of another picture or frame"));
+  EXPECT_FALSE(health_.is_degraded);
+}
+
+TEST_F(PeopleServiceTest, HearsNobodyWithoutAChannelOrAtHalfSize) {
+  const cv::Mat nobody = DepthAfter({});
+  config_.poses_channel = "";
+  config_.Validate();
+  EXPECT_EQ(DifferencesTo(nobody, {poses_}), 0);
+  config_.poses_channel = "BODY_POSES";
+  config_.driver.matcher.match_size = MatchSize::kHalf;
+  EXPECT_EQ(DifferencesTo(nobody, {poses_}), 0);
 }
 
 TEST(StereoDriverServiceConfig, DoesNotSendPairsToItself) {

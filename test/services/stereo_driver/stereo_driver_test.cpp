@@ -220,7 +220,7 @@ TEST_F(RegisteringDriverTest, TakesTheCamerasOwnLensBesideADepthLens) {
 
 TEST(StereoDriverConfig, AsksOnlyOfPairsThatDepthIsNotLargerThanWhatIsMatched) {
   StereoDriverConfig config;
-  config.matcher.match_size = Size::kHalf;
+  config.matcher.match_size = MatchSize::kHalf;
   config.matcher.depth_size = Size::kFull;
   const auto checking = [&config](FrameSourceKind kind) {
     config.source.kind = kind;

@@ -59,7 +59,7 @@ Plane Slanted() {
 }
 
 struct Way {
-  Size match_size;
+  MatchSize match_size;
   Size depth_size;
   Method method;
   double mean_px;
@@ -87,11 +87,12 @@ TEST_P(EveryWay, MeasuresPlanesThroughDistortedTurnedCameras) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, EveryWay,
-                         testing::Values(Way{Size::kFull, Size::kHalf, Method::kSgbm3way, 0.08},
-                                         Way{Size::kFull, Size::kFull, Method::kSgbm3way, 0.08},
-                                         Way{Size::kHalf, Size::kHalf, Method::kSgbm3way, 0.16},
-                                         Way{Size::kFull, Size::kHalf, Method::kBm, 0.08}));
+INSTANTIATE_TEST_SUITE_P(
+    Ways, EveryWay,
+    testing::Values(Way{MatchSize::kFull, Size::kHalf, Method::kSgbm3way, 0.08},
+                    Way{MatchSize::kFull, Size::kFull, Method::kSgbm3way, 0.08},
+                    Way{MatchSize::kHalf, Size::kHalf, Method::kSgbm3way, 0.16},
+                    Way{MatchSize::kFull, Size::kHalf, Method::kBm, 0.08}));
 
 /// Pinholes side by side, so that nothing is lost of a picture whose size is odd.
 geometry::StereoCalibration PlainRig(int width_px, int height_px) {
@@ -162,7 +163,7 @@ TEST(MatchingFault, TellsPicturesThatWouldTakeTooLong) {
   StereoMatcherConfig config;
   calibration.rectified = geometry::GuessCalibration(3840, 2160, 1.2);
   EXPECT_EQ(MatchingFault(config, calibration), "");
-  config.match_size = Size::kFull;
+  config.match_size = MatchSize::kFull;
   EXPECT_THAT(MatchingFault(config, calibration), testing::HasSubstr("too large"));
   config.nearest_m = 5.0;
   EXPECT_EQ(MatchingFault(config, calibration), "");

@@ -13,6 +13,7 @@ SUBCOMMANDS: dict[str, Command] = {
     "hands": Command(f"{_PACKAGE}.hands", "the hand tracker's error, misses and false tracks"),
     "live": Command(f"{_PACKAGE}.live", "loss, age, CPU and memory of the chain at camera rate"),
     "motion": Command(f"{_PACKAGE}.motion", "what the limits of joints say of recorded motion"),
+    "people": Command(f"{_PACKAGE}.people", "how well people and the floor are found in depth images"),
     "pointing": Command(f"{_PACKAGE}.pointing", "which pointing gestures are recognised, and when"),
     "pose": Command(f"{_PACKAGE}.pose", "how far fitted bodies are from true people"),
 }

@@ -104,6 +104,8 @@ class BodyFitter {
   body_model::Kinematics& kinematics() { return kinematics_; }
   /// Of the last fit, in the order of body_model::PointJacobian.
   const Eigen::MatrixXd& information() const { return equations_.information; }
+  /// Limb of each point of the last fit's evidence; -1 = none.
+  const std::vector<int>& winners() const { return winners_; }
 
  private:
   void Assign(const BodyPoints& points, double reach_m);
@@ -114,6 +116,7 @@ class BodyFitter {
   void AddUpright(const body_model::BodyPose& pose, const std::optional<body_model::Floor>& floor);
   void AddFloor(const std::optional<body_model::Floor>& floor);
   void Step(body_model::BodyPose& pose);
+  void Clamp(body_model::BodyPose& pose) const;
   FitResult Judge(const BodyEvidence& evidence);
 
   BodyFitterConfig config_;

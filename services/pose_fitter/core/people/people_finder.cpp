@@ -1,6 +1,7 @@
 #include "services/pose_fitter/core/people/people_finder.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "services/pose_fitter/core/depth/sound_depth.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kHeightSigmas = 1.5;  // Noise of the floor that is cut off with it.
 constexpr double kAnyHeight_m = 100.0;
+constexpr double kSeedShare = 0.3;  // Of a piece that must be expected to be somebody's.
 constexpr int kLevelRows = 60;  // Rows of a picture, over how far apart level pixels are compared.
 constexpr int kTopBins = 140;   // Centimetres: nothing higher is sat or lain on.
 
@@ -28,6 +30,7 @@ void PeopleFinderConfig::Validate() const {
   faults.Require(least_piece_m2 > 0.0, "least_piece_m2", "must be positive");
   faults.Require(least_top_m2 > 0.0, "least_top_m2", "must be positive");
   faults.Require(top_thickness_m > 0.0, "top_thickness_m", "must be positive");
+  faults.Require(seed_reach_m >= 0.0, "seed_reach_m", "must not be negative");
   faults.Require(least_likeness >= 0.0 && least_likeness <= 1.0, "least_likeness",
                  "must lie between 0 and 1");
   faults.ThrowIfAny();
@@ -40,7 +43,12 @@ PeopleFinder::PeopleFinder(const PeopleFinderConfig& config) : config_(config) {
 
 const PeopleRegions& PeopleFinder::Find(const DepthView& depth,
                                         const std::vector<std::uint8_t>& is_sound,
-                                        const std::optional<body_model::Floor>& floor) {
+                                        const std::optional<body_model::Floor>& floor,
+                                        const std::vector<std::uint8_t>& seeds) {
+  if (!seeds.empty() && seeds.size() != depth.z_m().size()) {
+    throw std::logic_error("people finder: the seeds are not of the depth's size");
+  }
+  territory_.Update(seeds, depth.width_px(), depth.height_px(), SeedReach_px(depth, seeds));
   has_floor_ = floor.has_value();
   room_ =
       RoomFrameOf(floor ? floor->normal : -Eigen::Vector3d::UnitY(), floor ? floor->offset_m : 0.0);
@@ -53,6 +61,22 @@ const PeopleRegions& PeopleFinder::Find(const DepthView& depth,
   Group(depth);
   Write(depth);
   return regions_;
+}
+
+/// At the mean distance of where people are expected.
+int PeopleFinder::SeedReach_px(const DepthView& depth,
+                               const std::vector<std::uint8_t>& seeds) const {
+  double sum_m = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const float z = depth.z_m()[i];
+    if (seeds[i] == 0 || z <= 0.0F) continue;
+    sum_m += static_cast<double>(z);
+    ++count;
+  }
+  return count == 0
+             ? 0
+             : static_cast<int>(config_.seed_reach_m * depth.camera().focal_px.x() * count / sum_m);
 }
 
 void PeopleFinder::SetGate(const DepthCamera& camera) {
@@ -132,13 +156,14 @@ void PeopleFinder::Link(const DepthView& depth, const std::vector<std::uint8_t>&
             is_level_.data() + row, is_inside);
     LinkRow(v > 0 ? row_m - width : row_m, row_m, above_inside, is_inside, camera.width_px,
             gate_.step, links_.data());
+    if (!territory_.is_empty()) territory_.Cut(v, links_.data());
     runs_.AddRow(links_.data());
   }
   runs_.Finish();
 }
 
 void PeopleFinder::Group(const DepthView& depth) {
-  groups_.Form(config_.shape, pieces_);
+  groups_.Form(config_.shape, pieces_, territory_.OwnersOf(runs_, pieces_.count(), kSeedShare));
   evidences_.Gather(depth, room_, runs_, groups_.group_of_core(), groups_.cores());
 }
 
@@ -154,6 +179,7 @@ void PeopleFinder::Rank() {
 }
 
 double PeopleFinder::Likeness(int group) const {
+  if (groups_.OwnerOf(group) != 0) return 1.0;
   const SurfaceShape& core = groups_.cores()[static_cast<std::size_t>(group)];
   return LikenessOf(evidences_.of(group), core, core.highest_m.z() - Ground(group));
 }
@@ -171,6 +197,7 @@ PersonRegion PeopleFinder::RegionOf(int group) const {
   region.top_m = shape.highest_m.z() - Ground(group);
   region.bottom_m = shape.lowest_m.z() - Ground(group);
   region.likeness = Likeness(group);
+  region.seed = groups_.OwnerOf(group);
   return region;
 }
 

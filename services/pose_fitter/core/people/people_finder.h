@@ -11,6 +11,7 @@
 #include "services/pose_fitter/core/people/gate_kernels.h"
 #include "services/pose_fitter/core/people/person_evidence.h"
 #include "services/pose_fitter/core/people/person_shape.h"
+#include "services/pose_fitter/core/people/seed_territory.h"
 #include "services/pose_fitter/core/people/surface_pieces.h"
 #include "services/pose_fitter/core/people/surface_runs.h"
 
@@ -19,6 +20,7 @@ namespace deixis::pose_fitter {
 /// What may be one person in a depth image.
 struct PersonRegion {
   int label = 0;  ///< Its number in PeopleRegions::labels, from 1.
+  int seed = 0;   ///< Whose seed it was found from, 0 = nobody's.
   int pixel_count = 0;
   Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero();  ///< In the camera's optical frame.
   double top_m = 0.0;     ///< Height of its highest part above the floor (above its own lowest part
@@ -47,6 +49,7 @@ struct PeopleFinderConfig {
   double least_piece_m2 = 0.002;  ///< Smaller surfaces are no part of anybody.
   double least_top_m2 = 0.08;     ///< Level surfaces from this size on are tables, seats, beds,
   double top_thickness_m = 0.02;  ///< which are so thick at most, to either side.
+  double seed_reach_m = 0.12;     ///< Around where somebody is expected, pixels are still his.
   double least_likeness = 0.3;    ///< From this on something is taken for a person.
   PersonShapeConfig shape;
 
@@ -62,6 +65,7 @@ struct PeopleFinderConfig {
     v("least_piece_m2", least_piece_m2);
     v("least_top_m2", least_top_m2);
     v("top_thickness_m", top_thickness_m);
+    v("seed_reach_m", seed_reach_m);
     v("least_likeness", least_likeness);
     v("shape", shape);
   }
@@ -75,12 +79,16 @@ class PeopleFinder {
   explicit PeopleFinder(const PeopleFinderConfig& config = {});
 
   /// `is_sound`: see SoundDepth. Without a floor, the camera is taken to be held level and heights
-  /// are told from the lowest thing seen. Valid until the next call.
+  /// are told from the lowest thing seen. `seeds`: per pixel, where people who are
+  /// followed are expected: 0 = nobody, else any number of his; empty = no one is. They are found
+  /// whatever their shape; their pixels stay together. Valid until the next call.
   const PeopleRegions& Find(const DepthView& depth, const std::vector<std::uint8_t>& is_sound,
-                            const std::optional<body_model::Floor>& floor);
+                            const std::optional<body_model::Floor>& floor,
+                            const std::vector<std::uint8_t>& seeds = {});
   const PeopleRegions& regions() const { return regions_; }
 
  private:
+  int SeedReach_px(const DepthView& depth, const std::vector<std::uint8_t>& seeds) const;
   void SetGate(const DepthCamera& camera);
   RowGate GateOf(const DepthCamera& camera, int row) const;
   void FindTops(const DepthView& depth);
@@ -104,6 +112,7 @@ class PeopleFinder {
   std::vector<std::uint8_t> links_;      ///< Of one row.
   SurfaceRuns runs_;
   SurfacePieces pieces_;
+  SeedTerritory territory_;
   PersonGroups groups_;
   PersonEvidences evidences_;
   std::vector<int> ranked_;  ///< Groups, the most likely first.

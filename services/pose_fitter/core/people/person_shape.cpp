@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -60,22 +61,46 @@ bool MayBePerson(const PersonShapeConfig& config, const SurfaceShape& shape) {
 PersonGroups::PersonGroups() {
   pairs_.reserve(static_cast<std::size_t>(SurfacePieces::kMost * SurfacePieces::kMost));
   for (auto* shapes : {&joined_, &shapes_, &cores_}) shapes->reserve(SurfacePieces::kMost);
+  for (auto* owners : {&owner_of_root_, &owners_}) owners->reserve(SurfacePieces::kMost);
   for (auto* numbers : {&roots_, &groups_, &group_of_core_}) numbers->reserve(SurfacePieces::kMost);
 }
 
-void PersonGroups::Form(const PersonShapeConfig& config, const SurfacePieces& pieces) {
-  const int count = pieces.count();
+void PersonGroups::Form(const PersonShapeConfig& config, const SurfacePieces& pieces,
+                        const std::vector<std::uint8_t>& owners) {
   joined_.clear();
   roots_.clear();
-  for (int i = 0; i < count; ++i) {
+  owner_of_root_.assign(owners.begin(), owners.end());
+  for (int i = 0; i < pieces.count(); ++i) {
     const SurfaceShape& shape = pieces.shape(i);
     const bool is_room = IsTooLarge(config, shape) ||
                          (shape.area_m2 > kLimbArea_m2 ? IsFlat(config, shape) : pieces.IsAtTop(i));
     joined_.push_back(shape);
-    roots_.push_back(is_room ? -1 : i);
+    roots_.push_back(is_room && owners[static_cast<std::size_t>(i)] == 0 ? -1 : i);
   }
+  JoinOwned(owners);
   JoinPieces(config, pieces);
   Number(config, pieces);
+}
+
+void PersonGroups::JoinOwned(const std::vector<std::uint8_t>& owners) {
+  std::array<int, 256> first;
+  first.fill(-1);
+  for (std::size_t i = 0; i < owners.size(); ++i) {
+    int& root = first[owners[i]];
+    if (owners[i] == 0) continue;
+    if (root < 0) {
+      root = static_cast<int>(i);
+    } else {
+      Join(root, static_cast<int>(i));
+    }
+  }
+}
+
+void PersonGroups::Join(int a, int b) {
+  joined_[static_cast<std::size_t>(a)].Add(joined_[static_cast<std::size_t>(b)]);
+  roots_[static_cast<std::size_t>(b)] = a;
+  auto& owner = owner_of_root_[static_cast<std::size_t>(a)];
+  owner = std::max(owner, owner_of_root_[static_cast<std::size_t>(b)]);
 }
 
 int PersonGroups::Root(int piece) {
@@ -109,35 +134,39 @@ void PersonGroups::JoinPieces(const PersonShapeConfig& config, const SurfacePiec
   for (const Pair& pair : pairs_) {
     const int a = std::min(Root(pair.a), Root(pair.b));  // The larger one.
     const int b = std::max(Root(pair.a), Root(pair.b));
-    SurfaceShape& into = joined_[static_cast<std::size_t>(a)];
-    const SurfaceShape& from = joined_[static_cast<std::size_t>(b)];
-    if (a == b || !MayJoin(config, into, from)) continue;
-    into.Add(from);
-    roots_[static_cast<std::size_t>(b)] = a;
+    if (a != b && MayJoin(config, a, b)) Join(a, b);
   }
 }
 
 /// Two whole people stay two.
-bool PersonGroups::MayJoin(const PersonShapeConfig& config, const SurfaceShape& a,
-                           const SurfaceShape& b) const {
-  if (std::min(a.area_m2, b.area_m2) > kWholePerson_m2) return false;
-  SurfaceShape both = a;
-  both.Add(b);
+bool PersonGroups::MayJoin(const PersonShapeConfig& config, int a, int b) const {
+  const SurfaceShape& one = joined_[static_cast<std::size_t>(a)];
+  const SurfaceShape& other = joined_[static_cast<std::size_t>(b)];
+  if (std::min(one.area_m2, other.area_m2) > kWholePerson_m2) return false;
+  if (owner_of_root_[static_cast<std::size_t>(a)] != 0 &&
+      owner_of_root_[static_cast<std::size_t>(b)] != 0) {
+    return false;
+  }
+  SurfaceShape both = one;
+  both.Add(other);
   return !IsTooLarge(config, both);
 }
 
 void PersonGroups::Number(const PersonShapeConfig& config, const SurfacePieces& pieces) {
   shapes_.clear();
   cores_.clear();
+  owners_.clear();
   groups_.assign(static_cast<std::size_t>(pieces.count()), -1);
   group_of_core_.assign(static_cast<std::size_t>(pieces.count()), -1);
   for (int i = 0; i < pieces.count(); ++i) {
-    if (Root(i) != i || !MayBePerson(config, joined_[static_cast<std::size_t>(i)])) continue;
+    const auto at = static_cast<std::size_t>(i);
+    if (Root(i) != i || (owner_of_root_[at] == 0 && !MayBePerson(config, joined_[at]))) continue;
     for (int piece = 0; piece < pieces.count(); ++piece) {
       if (Root(piece) == i) groups_[static_cast<std::size_t>(piece)] = count();
     }
-    group_of_core_[static_cast<std::size_t>(i)] = count();
-    shapes_.push_back(joined_[static_cast<std::size_t>(i)]);
+    group_of_core_[at] = count();
+    owners_.push_back(owner_of_root_[at]);
+    shapes_.push_back(joined_[at]);
     cores_.push_back(pieces.shape(i));
   }
 }

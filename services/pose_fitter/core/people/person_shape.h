@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "common/config/config.h"
@@ -45,10 +46,15 @@ bool IsFlat(const PersonShapeConfig& config, const SurfaceShape& shape);
 class PersonGroups {
  public:
   PersonGroups();
-  void Form(const PersonShapeConfig& config, const SurfacePieces& pieces);
+  /// `owners`: per piece, whose it is known to be, 0 = not known. Pieces of one owner are one group
+  /// of whatever shape; those of two never are.
+  void Form(const PersonShapeConfig& config, const SurfacePieces& pieces,
+            const std::vector<std::uint8_t>& owners);
 
   int count() const { return static_cast<int>(shapes_.size()); }
   const SurfaceShape& shape(int group) const { return shapes_[static_cast<std::size_t>(group)]; }
+  /// Whose a group is known to be, 0 = not known.
+  int OwnerOf(int group) const { return owners_[static_cast<std::size_t>(group)]; }
   /// The group of a piece, -1 = nobody.
   int GroupOf(int piece) const { return groups_[static_cast<std::size_t>(piece)]; }
   /// Of a piece: its group where it is the largest one of that, -1 else. What hangs on tells less.
@@ -58,7 +64,9 @@ class PersonGroups {
 
  private:
   int Root(int piece);
-  bool MayJoin(const PersonShapeConfig& config, const SurfaceShape& a, const SurfaceShape& b) const;
+  bool MayJoin(const PersonShapeConfig& config, int a, int b) const;
+  void Join(int a, int b);
+  void JoinOwned(const std::vector<std::uint8_t>& owners);
   void JoinPieces(const PersonShapeConfig& config, const SurfacePieces& pieces);
   void Number(const PersonShapeConfig& config, const SurfacePieces& pieces);
 
@@ -68,6 +76,8 @@ class PersonGroups {
   };
   std::vector<Pair> pairs_;
   std::vector<int> roots_;
+  std::vector<std::uint8_t> owner_of_root_;
+  std::vector<std::uint8_t> owners_;  ///< Per group.
   std::vector<int> groups_;
   std::vector<SurfaceShape> joined_;  ///< Per root.
   std::vector<SurfaceShape> shapes_;

@@ -13,8 +13,8 @@ struct ShapeConfig {
   int min_frames = 20;             ///< Fewer frames are refused.
   int min_points = 4000;           ///< Of all frames together; fewer are refused.
   double lateral_sigma_m = 0.006;  ///< Error of a point across its viewing ray.
-  /// Errors of neighbouring points go together: so many count as one.
-  double points_per_observation = 4.0;
+  /// Errors of neighbouring points go together, and limbs are no cylinders: so many count as one.
+  double points_per_observation = 30.0;
   double robust_sigmas = 2.5;   ///< Errors beyond count less and less (Geman and McClure).
   double pose_sigma_rad = 0.3;  ///< How far an angle may be off; holds what nothing shows.
   double root_sigma_m = 0.3;
@@ -72,8 +72,9 @@ struct ShapeResult {
 
 /// The shape of one person from several frames: shape and all poses together by Gauss-Newton, each
 /// frame's pose eliminated from the normal equations (Schur complement), as in bundle adjustment.
-/// What the points do not show stays as the prior has it. Throws std::logic_error when a pose or
-/// limb is not the model's.
+/// What the points do not show stays as the prior has it. Which limb a point belongs to depends on
+/// the shape: giving the points anew and calibrating again makes lengths better. Throws
+/// std::logic_error when a pose or limb is not the model's.
 ShapeResult CalibrateShape(const ShapeParameters& parameters, const std::vector<ShapeFrame>& frames,
                            const ShapeConfig& config);
 

@@ -33,17 +33,31 @@ class DisparityRefiner {
   /// Improves `disparity` (as of DisparityMatcher) of two rectified pictures, CV_8UC1, of its size.
   void Refine(const cv::Mat& left_grey, const cv::Mat& right_grey, cv::Mat& disparity);
 
+  /// The same in a part of the pictures and without rounding: `disparity_px` is CV_32FC1, of the
+  /// size of `window`, in pixels, kAbsent_px where there is none. The window lies in the pictures.
+  void RefineWindow(const cv::Mat& left_grey, const cv::Mat& right_grey, const cv::Rect& window,
+                    cv::Mat& disparity_px);
+
  private:
-  void Align();
+  /// Room for `window` in buffers that hold whole pictures, so that windows of changing size cost
+  /// no memory.
+  void MakeRoom(cv::Size picture, const cv::Rect& window);
+  void Run(const cv::Mat& left_grey, const cv::Mat& right_grey, const cv::Rect& window);
+  void Align(int first_column);
+  void Blur(cv::Mat& values);
   void Smooth();
 
   RefinementConfig config_;
+  cv::Mat buffers_[6];    ///< CV_32FC1, as large as the pictures; the window's below lie in them.
+  cv::Mat right_buffer_;  ///< CV_32FC1
+  cv::Mat bordered_buffer_;
   cv::Mat left_;          ///< CV_32FC1, grey levels: what kernels gather fastest.
-  cv::Mat right_;         ///< CV_32FC1
+  cv::Mat right_;         ///< CV_32FC1, the window's rows, whole.
   cv::Mat start_px_;      ///< CV_32FC1, as the matcher gave it; kAbsent_px where there is none.
   cv::Mat current_px_;    ///< CV_32FC1
   cv::Mat slope_error_;   ///< CV_32FC1, weighted products of slope and difference.
   cv::Mat slope_square_;  ///< CV_32FC1
+  cv::Mat blurred_;       ///< CV_32FC1
   cv::Mat bordered_px_;   ///< CV_32FC1, current_px_ with kAbsent_px around.
 };
 

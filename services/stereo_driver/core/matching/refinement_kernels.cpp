@@ -13,8 +13,10 @@ constexpr float kLeastTexture = 20.0F;  // Of slope_square: holds still what has
 constexpr float kLongestStep_px = 0.5F;
 constexpr float kLongestWay_px = 1.0F;
 
-constexpr int kBlock = 256;   // Sums of so many pixels stay in the nearest cache.
-constexpr int kTogether = 7;  // Neighbours of a row that are added in registers; the usual window.
+constexpr int kBlock = 256;  // Sums of so many pixels stay in the nearest cache.
+// Neighbours of a row that are added in registers: the usual windows'.
+constexpr int kTogether = 7;
+constexpr int kMoreTogether = 9;
 
 /// Adds, to sum and count, those of `kCount` neighbours that agree with `here`.
 template <int kCount>
@@ -44,6 +46,9 @@ template <int kCount>
   for (int dy = 0; dy < side; ++dy) {
     const float* row = rows + dy * stride;
     int dx = 0;
+    for (; dx + kMoreTogether == side; dx += kMoreTogether) {
+      AddAgreeing<kMoreTogether>(row, here, agree_px, width, sum, count);
+    }
     for (; dx + kTogether <= side; dx += kTogether) {
       AddAgreeing<kTogether>(row + dx, here, agree_px, width, sum, count);
     }
@@ -54,23 +59,27 @@ template <int kCount>
 
 }  // namespace
 
-DEIXIS_KERNEL void CompareRow(const float* left, const float* right, const float* disparity_px,
+DEIXIS_KERNEL void CompareRow(const float* left, RightRow right, const float* disparity_px,
                               int width, float* slope_error, float* slope_square) {
   slope_error[0] = slope_square[0] = 0.0F;
   slope_error[width - 1] = slope_square[width - 1] = 0.0F;
-  const float last = static_cast<float>(width) - 3.0F;
+  const float* grey = right.grey;
+  const float first = static_cast<float>(right.first);
+  const float last = static_cast<float>(right.width) - 3.0F;
   for (int x = 1; x < width - 1; ++x) {
     const bool is_present = disparity_px[x] > 0.0F;
-    const float place = std::min(std::max(static_cast<float>(x) - disparity_px[x], 1.0F), last);
+    const float place =
+        std::min(std::max(first + static_cast<float>(x) - disparity_px[x], 1.0F), last);
     const int i = static_cast<int>(place);
     const float share = place - static_cast<float>(i);
-    const float r0 = right[i - 1], r1 = right[i], r2 = right[i + 1], r3 = right[i + 2];
+    const float r0 = grey[i - 1], r1 = grey[i], r2 = grey[i + 1], r3 = grey[i + 2];
     const float error = left[x] - (r1 + share * (r2 - r1));
     const float right_slope = 0.5F * ((r2 - r0) + share * (r3 - r1 - r2 + r0));
     const float left_slope = 0.5F * (left[x + 1] - left[x - 1]);
     const float slope = 0.5F * (left_slope + right_slope);
     const float scaled = error * (1.0F / kErrorScale);
-    const float weight = is_present ? 1.0F / (1.0F + scaled * scaled) : 0.0F;
+    const float likeness = 1.0F / (1.0F + scaled * scaled);
+    const float weight = is_present ? likeness * likeness : 0.0F;
     slope_error[x] = weight * slope * error;
     slope_square[x] = weight * slope * slope;
   }

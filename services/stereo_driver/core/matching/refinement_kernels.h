@@ -6,10 +6,17 @@ namespace deixis::stereo_driver {
 /// Stands for a disparity that is absent: far from all others. Pixels.
 constexpr float kAbsent_px = -1e4F;
 
+/// A row of the right picture, of which pixels of the left one may start at another column.
+struct RightRow {
+  const float* grey;  ///< From column 0 of the picture.
+  int width;
+  int first;  ///< Column of the left picture's first pixel.
+};
+
 /// For each pixel of a row: the difference of the left picture and the right one moved by
 /// `disparity_px`, times their mean slope, and that slope squared, both weighted down where they
 /// differ much. 0 where the disparity is absent.
-void CompareRow(const float* left, const float* right, const float* disparity_px, int width,
+void CompareRow(const float* left, RightRow right, const float* disparity_px, int width,
                 float* slope_error, float* slope_square);
 
 /// One step towards the least squared difference, at most half a pixel long, and never further than

@@ -15,7 +15,8 @@ constexpr std::int64_t kMostCompared = std::int64_t{1} << 30;
 
 // Half of an odd size is not half as large: the view is the whole one, its scale follows.
 cv::Size MatchedSize(const StereoMatcherConfig& config, cv::Size size) {
-  return config.match_size == Size::kHalf ? cv::Size(size.width / 2, size.height / 2) : size;
+  const bool is_full = config.match_size == MatchSize::kFull;
+  return is_full ? size : cv::Size(size.width / 2, size.height / 2);
 }
 
 int MatchedWidth(const StereoMatcherConfig& config, const geometry::CameraCalibration& rectified) {
@@ -32,7 +33,7 @@ DepthGeometry GeometryOf(const StereoMatcherConfig& config,
 
 const StereoMatcherConfig& Validated(const StereoMatcherConfig& config) {
   config.Validate();
-  if (config.match_size == Size::kHalf && config.depth_size == Size::kFull) {
+  if (config.match_size == MatchSize::kHalf && config.depth_size == Size::kFull) {
     throw std::logic_error("StereoMatcher: depth cannot be larger than what is matched");
   }
   config.disparity.Validate();
@@ -79,12 +80,15 @@ StereoMatcher::StereoMatcher(const StereoMatcherConfig& config,
       num_disparities_(SearchedBy(config, calibration)),
       matcher_(config.disparity, num_disparities_),
       refiner_(config.refinement),
+      people_(config.people, GeometryOf(config, calibration)),
       converter_(GeometryOf(config, calibration), num_disparities_) {}
 
-const RectifiedDepth& StereoMatcher::Measure(const images::StereoPair& pair) {
+const RectifiedDepth& StereoMatcher::Measure(const images::StereoPair& pair,
+                                             const Windows& people) {
   Rectify(pair);
   Match();
   Refine();
+  MeasurePeople(people);
   Convert();
   return result_;
 }
@@ -92,7 +96,7 @@ const RectifiedDepth& StereoMatcher::Measure(const images::StereoPair& pair) {
 void StereoMatcher::Rectify(const images::StereoPair& pair) {
   rectifier_.Rectify(pair, rectified_);
   result_.left_bgr = rectified_.left_bgr;
-  if (config_.match_size == Size::kHalf) {
+  if (config_.match_size != MatchSize::kFull) {
     const cv::Size half = MatchedSize(config_, rectified_.left_grey.size());
     cv::resize(rectified_.left_grey, left_to_match_, half, 0.0, 0.0, cv::INTER_AREA);
     cv::resize(rectified_.right_grey, right_to_match_, half, 0.0, 0.0, cv::INTER_AREA);
@@ -106,12 +110,23 @@ void StereoMatcher::Match() { matcher_.Match(left_to_match_, right_to_match_, di
 
 void StereoMatcher::Refine() { refiner_.Refine(left_to_match_, right_to_match_, disparity_); }
 
+void StereoMatcher::MeasurePeople(const Windows& people) {
+  if (config_.match_size != MatchSize::kPeople) return;
+  people_.Measure(people, rectified_, left_to_match_, right_to_match_, disparity_);
+}
+
 void StereoMatcher::Convert() {
-  if (config_.match_size == config_.depth_size) {
+  const bool is_half = config_.match_size != MatchSize::kFull;
+  if (is_half == (config_.depth_size == Size::kHalf)) {
     converter_.Convert(disparity_, result_.depth_mm);
+  } else if (is_half) {
+    converter_.Convert(disparity_, half_depth_mm_);
+    cv::resize(half_depth_mm_, result_.depth_mm, rectified_.left_grey.size(), 0.0, 0.0,
+               cv::INTER_NEAREST);
   } else {
     converter_.ConvertHalved(disparity_, result_.depth_mm);
   }
+  if (config_.match_size == MatchSize::kPeople) people_.WriteTo(result_.depth_mm);
 }
 
 }  // namespace deixis::stereo_driver

@@ -9,24 +9,37 @@
 #include "common/images/stereo_pair.h"
 #include "services/stereo_driver/core/matching/depth.h"
 #include "services/stereo_driver/core/matching/disparity.h"
+#include "services/stereo_driver/core/matching/people/people_measurer.h"
 #include "services/stereo_driver/core/matching/rectifier.h"
 #include "services/stereo_driver/core/matching/refinement.h"
 
 namespace deixis::stereo_driver {
 
-/// Of the pictures that are matched, or of the depth that comes out, as part of the pictures taken.
+/// At what size pictures are matched.
+enum class MatchSize {
+  kFull,
+  kHalf,
+  kPeople  ///< Half size, and full-size alignment where people can be.
+};
+inline auto EnumNames(MatchSize) {
+  return std::vector<std::pair<std::string, MatchSize>>{
+      {"full", MatchSize::kFull}, {"half", MatchSize::kHalf}, {"people", MatchSize::kPeople}};
+}
+
+/// Of the depth that comes out, as part of the pictures taken.
 enum class Size { kFull, kHalf };
 inline auto EnumNames(Size) {
   return std::vector<std::pair<std::string, Size>>{{"full", Size::kFull}, {"half", Size::kHalf}};
 }
 
 struct StereoMatcherConfig {
-  Size match_size = Size::kHalf;  ///< Full: five times the work, errors a quarter smaller.
-  Size depth_size = Size::kHalf;  ///< Of the published depth; of pairs not larger.
+  MatchSize match_size = MatchSize::kHalf;
+  Size depth_size = Size::kHalf;  ///< Of the published depth; half when match_size is.
   double nearest_m = 0.5;         ///< Nearer things have no depth; smaller costs time.
   double farthest_m = 10.0;       ///< Farther things have no depth.
   DisparityConfig disparity;
   RefinementConfig refinement;
+  PeopleConfig people;  ///< With MatchSize::kPeople.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -36,6 +49,7 @@ struct StereoMatcherConfig {
     v("farthest_m", farthest_m);
     v("disparity", disparity);
     v("refinement", refinement);
+    v("people", people);
   }
   void Validate() const;  ///< Throws FaultsFound.
 };
@@ -61,19 +75,24 @@ class StereoMatcher {
   /// calibration that is none.
   StereoMatcher(const StereoMatcherConfig& config, const geometry::StereoCalibration& calibration);
 
-  /// All steps. The result shares memory with this object and holds until the next call. Throws
-  /// std::logic_error on pictures of another size.
-  const RectifiedDepth& Measure(const images::StereoPair& pair);
+  /// All steps. `people` are windows of the full-size picture where people have been said to be, as
+  /// PeopleMeasurer takes them; they count with MatchSize::kPeople only. The result shares memory
+  /// with this object and holds until the next call. Throws std::logic_error on pictures of another
+  /// size.
+  const RectifiedDepth& Measure(const images::StereoPair& pair, const Windows& people = {});
 
   void Rectify(const images::StereoPair& pair);  ///< First step: fills pair().
   void Match();                                  ///< Second step: fills disparity().
   void Refine();                                 ///< Third step: improves disparity().
-  void Convert();                                ///< Fourth step: fills result().
+  void MeasurePeople(const Windows& people);     ///< Fourth step: fills windows().
+  void Convert();                                ///< Fifth step: fills result().
 
   const RectifiedPair& pair() const { return rectified_; }
   const cv::Mat& disparity() const {
     return disparity_;
-  }  ///< Of match_size, in 1/16 of its pixels.
+  }  ///< Of the pictures that are matched, in 1/16 of their pixels.
+  /// Where people were measured at full size, in its pixels.
+  const Windows& windows() const { return people_.windows(); }
   const RectifiedDepth& result() const { return result_; }
   int num_disparities() const { return num_disparities_; }
 
@@ -83,10 +102,12 @@ class StereoMatcher {
   int num_disparities_;
   DisparityMatcher matcher_;
   DisparityRefiner refiner_;
+  PeopleMeasurer people_;
   DepthConverter converter_;
   RectifiedPair rectified_;
   cv::Mat left_to_match_, right_to_match_;
   cv::Mat disparity_;
+  cv::Mat half_depth_mm_;  ///< Before it is doubled.
   RectifiedDepth result_;
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "common/config/config.h"
 #include "test/services/pose_fitter/shape/seen_person.h"
 
 namespace deixis::pose_fitter {
@@ -47,7 +48,9 @@ class UnusualPerson : public testing::Test {
 
   UnusualPerson()
       : parameters_(ClothedPerson(1.72, 0.01)),
-        truth_(parameters_.Apply(Values(parameters_, Truth()))) {}
+        truth_(parameters_.Apply(Values(parameters_, Truth()))) {
+    config_.points_per_observation = 4.0;  // Here each point has its own error.
+  }
 
   ShapeParameters parameters_;
   BodyModel truth_;
@@ -178,6 +181,19 @@ TEST_F(UnusualPerson, CannotHavePosesOrLimbsOfAnotherModel) {
   frames[3].points[0].limb = 0;
   frames[3].pose.angles_rad.resize(3);
   EXPECT_THROW(CalibrateShape(parameters_, frames, config_), std::logic_error);
+}
+
+TEST(ShapeConfig, RefusesWhatMakesNoSense) {
+  ShapeConfig config;
+  EXPECT_NO_THROW(config.Validate());
+  config.points_per_observation = 0.5;
+  EXPECT_THROW(config.Validate(), config::ConfigError);
+  config = {};
+  config.max_remaining_sigma = 1.5;
+  EXPECT_THROW(config.Validate(), config::ConfigError);
+  config = {};
+  config.lateral_sigma_m = 0.0;
+  EXPECT_THROW(config.Validate(), config::ConfigError);
 }
 
 }  // namespace

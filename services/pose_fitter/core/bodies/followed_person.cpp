@@ -1,0 +1,193 @@
+#include "services/pose_fitter/core/bodies/followed_person.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "common/config/config.h"
+
+namespace deixis::pose_fitter {
+namespace {
+
+using body_model::BodyPose;
+using body_model::LimbState;
+
+constexpr int kLessons = 4;         // The last lesson has so many times the first one's images.
+constexpr int kMeasuredPoints = 8;  // A limb with as many rests on its own data.
+
+LimbState StateOf(const LimbEvidence& evidence) {
+  if (evidence.inlier_count >= kMeasuredPoints) return LimbState::kMeasured;
+  const LimbView& view = evidence.view;
+  if (2 * (view.hidden + view.outside) > view.samples) return LimbState::kHidden;
+  return 2 * view.free > view.samples ? LimbState::kLost : LimbState::kInferred;
+}
+
+}  // namespace
+
+void FollowConfig::Validate() const {
+  config::Faults faults;
+  faults.Require(velocity_share >= 0.0 && velocity_share <= 1.0, "velocity_share", "must be 0..1");
+  faults.Require(settle_s > 0.0, "settle_s", "must be positive");
+  faults.Require(doubtful_score > 0.0, "doubtful_score", "must be positive");
+  faults.Require(least_points >= 10, "least_points", "must be at least 10");
+  faults.Require(position_sigma_m >= 0.0, "position_sigma_m", "must not be negative");
+  faults.Require(covariance_factor > 0.0, "covariance_factor", "must be positive");
+  faults.Require(shape_frames >= 0 && shape_frames <= 1000, "shape_frames", "must be 0..1000");
+  faults.Require(shape_period_s >= 0.0, "shape_period_s", "must not be negative");
+  faults.Require(shape_points >= 10, "shape_points", "must be at least 10");
+  faults.ThrowIfAny();
+}
+
+FollowedPerson::FollowedPerson(const FollowSettings& settings, const PersonBody& body,
+                               const body_model::BodyPlan& plan, std::vector<Hypothesis> starts)
+    : settings_(settings),
+      plan_(&plan),
+      estimate_(body.estimate),
+      first_model_(std::make_unique<body_model::BodyModel>(body.model)),
+      model_(std::make_unique<body_model::BodyModel>(body.model)),
+      fitter_(std::make_unique<BodyFitter>(settings.fit, *model_)),
+      evidence_(settings.evidence),
+      hypotheses_(std::move(starts)),
+      next_lesson_(settings.follow.shape_frames) {
+  Choose();
+}
+
+void FollowedPerson::Look(const DepthView& view, const std::optional<body_model::Floor>& floor) {
+  std::vector<const BodyPose*> poses;
+  for (const Hypothesis& hypothesis : hypotheses_) poses.push_back(&hypothesis.pose);
+  evidence_.Gather(view, fitter_->kinematics(), poses, floor, {}, settings_.evidence.gate_m);
+}
+
+void FollowedPerson::Follow(const DepthView& view, const std::optional<body_model::Floor>& floor,
+                            const std::vector<std::uint8_t>& taken, double seconds) {
+  std::vector<BodyPose> predicted;
+  for (const Hypothesis& hypothesis : hypotheses_) {
+    predicted.push_back(Predict(hypothesis, seconds, settings_.follow.velocity_share));
+  }
+  std::vector<const BodyPose*> poses;
+  for (const BodyPose& pose : predicted) poses.push_back(&pose);
+  evidence_.Gather(view, fitter_->kinematics(), poses, floor, {&taken}, settings_.evidence.gate_m);
+  if (evidence_.points().count() < settings_.follow.least_points) {
+    unseen_s_ += seconds;
+    return;
+  }
+  unseen_s_ = 0.0;
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    Fit(floor, predicted[i], seconds, hypotheses_[i]);
+  }
+  Remember(seconds);
+  Choose();
+}
+
+void FollowedPerson::Fit(const std::optional<body_model::Floor>& floor, const BodyPose& predicted,
+                         double seconds, Hypothesis& hypothesis) {
+  BodyPose pose = predicted;
+  hypothesis.result = fitter_->Fit(evidence_, floor, predicted, seconds, pose);
+  hypothesis.information = fitter_->information();
+  Move(pose, seconds, hypothesis);
+  const double score = hypothesis.result.score + FacingPenalty(settings_.start, pose);
+  const double share = std::min(1.0, seconds / (0.5 * settings_.follow.settle_s));
+  hypothesis.mean_score += share * (score - hypothesis.mean_score);
+}
+
+// With time, all but the best go.
+void FollowedPerson::Choose() {
+  std::stable_sort(
+      hypotheses_.begin(), hypotheses_.end(),
+      [](const Hypothesis& a, const Hypothesis& b) { return a.mean_score < b.mean_score; });
+  while (hypotheses_.size() > 1 && hypotheses_.back().age_s >= settings_.follow.settle_s) {
+    hypotheses_.pop_back();
+  }
+}
+
+void FollowedPerson::AddRivals(std::vector<Hypothesis> rivals) {
+  for (Hypothesis& rival : rivals) {
+    if (rival.mean_score < best().mean_score) hypotheses_.push_back(std::move(rival));
+  }
+}
+
+bool FollowedPerson::IsDoubtful() const {
+  return hypotheses_.size() == 1 && best().mean_score > settings_.follow.doubtful_score;
+}
+
+bool FollowedPerson::IsNobody() const {
+  return best().age_s > 2.0 * settings_.follow.settle_s &&
+         best().mean_score > settings_.start.worst_score;
+}
+
+// Images for the person's shape: such without doubt, apart from each other.
+void FollowedPerson::Remember(double seconds) {
+  since_frame_s_ += seconds;
+  if (next_lesson_ == 0 || hypotheses_.size() > 1 || best().age_s < settings_.follow.settle_s ||
+      best().result.score > settings_.follow.shape_score ||
+      since_frame_s_ < settings_.follow.shape_period_s) {
+    return;
+  }
+  since_frame_s_ = 0.0;
+  const BodyPoints& points = evidence_.points();
+  const int step = std::max(1, points.count() / settings_.follow.shape_points);
+  ShapeFrame& frame = frames_.emplace_back();
+  frame.pose = best().pose;
+  for (int i = 0; i < points.count(); i += step) {
+    const auto k = static_cast<std::size_t>(i);
+    if (fitter_->winners()[k] < 0) continue;
+    frame.points.push_back(
+        {Eigen::Vector3f(points.x_m[k], points.y_m[k], points.z_m[k]).cast<double>(),
+         static_cast<double>(points.sigma_z_m[k]), fitter_->winners()[k]});
+  }
+  if (static_cast<int>(frames_.size()) >= next_lesson_) LearnShape();
+}
+
+void FollowedPerson::LearnShape() {
+  const ShapeParameters parameters(*first_model_, *plan_, estimate_);
+  const ShapeResult learned = CalibrateShape(parameters, frames_, settings_.shape);
+  if (learned.shape) Wear(*learned.shape);
+  next_lesson_ *= 2;
+  if (next_lesson_ > kLessons * settings_.follow.shape_frames) {
+    next_lesson_ = 0;
+    frames_.clear();
+  }
+}
+
+// Angles mean the same in the new body; its next fit starts from the pose that was learned with it.
+void FollowedPerson::Wear(const CalibratedShape& shape) {
+  model_ = std::make_unique<body_model::BodyModel>(shape.model);
+  fitter_ = std::make_unique<BodyFitter>(settings_.fit, *model_);
+  hypotheses_.front().pose = shape.poses.back();
+}
+
+body_model::TrackedBody FollowedPerson::Describe() {
+  const Hypothesis& now = best();
+  body_model::TrackedBody body;
+  body.person_id = id;
+  body.state = unseen_s_ > 0.0 ? body_model::BodyState::kLost : body_model::BodyState::kTracked;
+  body.pose = now.pose;
+  body.root_velocity_m_per_s = now.velocity_m_per_s;
+  body.root_rate_rad_per_s = now.turn_rate_rad_per_s;
+  body.rates_rad_per_s = now.rates_rad_per_s;
+  const auto size = now.information.rows();
+  body.covariance = settings_.follow.covariance_factor *
+                    now.information.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+  const double variance_m2 = settings_.follow.position_sigma_m * settings_.follow.position_sigma_m;
+  body.covariance.diagonal().head<3>().array() += variance_m2;
+  body_model::PlaceLimbs(fitter_->kinematics(), body);
+  for (std::size_t limb = 0; limb < body.limbs.size(); ++limb) {
+    const LimbEvidence& evidence = now.result.limbs[limb];
+    body.limbs[limb].inlier_count = evidence.inlier_count;
+    body.limbs[limb].residual_m = evidence.residual_m;
+    body.limbs[limb].state = unseen_s_ > 0.0 ? LimbState::kLost : StateOf(evidence);
+  }
+  return body;
+}
+
+body_model::PersonModel FollowedPerson::DescribeModel(Timestamp time) const {
+  body_model::PersonModel description{time, *model_};
+  description.person_id = id;
+  description.female_probability = estimate_.female_probability;
+  description.stature_m = estimate_.Length_m("kph");
+  const double sigma_m = estimate_.Spread_m("kph");
+  description.stature_variance_m2 = sigma_m * sigma_m;
+  description.is_frozen = next_lesson_ == 0;
+  return description;
+}
+
+}  // namespace deixis::pose_fitter

@@ -1,0 +1,102 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/body_model/tracked_body.h"
+#include "services/pose_fitter/core/bodies/hypothesis.h"
+#include "services/pose_fitter/core/bodies/person_body.h"
+#include "services/pose_fitter/core/fitting/body_evidence.h"
+#include "services/pose_fitter/core/fitting/body_fitter.h"
+#include "services/pose_fitter/core/shape/shape_calibration.h"
+#include "services/pose_fitter/core/start/starter.h"
+
+namespace deixis::pose_fitter {
+
+struct FollowConfig {
+  double velocity_share = 0.6;      ///< Of the motion that goes on from image to image.
+  double settle_s = 0.5;            ///< Time that rival poses have to prove themselves.
+  double doubtful_score = 0.4;      ///< From here on other poses of the person are tried.
+  int least_points = 50;            ///< With fewer a person is not seen.
+  double position_sigma_m = 0.012;  ///< Spread of joint places that a fit does not know of.
+  double covariance_factor = 1.0;   ///< Times the covariance that a fit believes in.
+  int shape_frames = 20;            ///< Well seen images that a person's shape is learned from;
+                                    ///< again from twice and from four times as many; 0 = never.
+  double shape_period_s = 0.15;     ///< Between two of them.
+  double shape_score = 0.4;         ///< Images with a worse one are not taken.
+  int shape_points = 400;           ///< Taken from each.
+
+  template <typename Visitor>
+  void Visit(Visitor& v) {
+    v("velocity_share", velocity_share);
+    v("settle_s", settle_s);
+    v("doubtful_score", doubtful_score);
+    v("least_points", least_points);
+    v("position_sigma_m", position_sigma_m);
+    v("covariance_factor", covariance_factor);
+    v("shape_frames", shape_frames);
+    v("shape_period_s", shape_period_s);
+    v("shape_score", shape_score);
+    v("shape_points", shape_points);
+  }
+  void Validate() const;  ///< Throws FaultsFound.
+};
+
+/// All that following a person needs to know.
+struct FollowSettings {
+  FollowConfig follow;
+  StarterConfig start;
+  BodyEvidenceConfig evidence;
+  BodyFitterConfig fit;
+  ShapeConfig shape;
+};
+
+/// A person who is followed from image to image, by one pose or, while that is in doubt, by
+/// several.
+class FollowedPerson {
+ public:
+  /// `starts`: at least one. `plan` must outlive it.
+  FollowedPerson(const FollowSettings& settings, const PersonBody& body,
+                 const body_model::BodyPlan& plan, std::vector<Hypothesis> starts);
+
+  /// Gathers what the image says around the poses, and their pixels, without moving them.
+  void Look(const DepthView& view, const std::optional<body_model::Floor>& floor);
+  /// Moves on to the next image, `seconds` later. Pixels of `taken` are somebody else's.
+  void Follow(const DepthView& view, const std::optional<body_model::Floor>& floor,
+              const std::vector<std::uint8_t>& taken, double seconds);
+  /// Other poses that it may have.
+  void AddRivals(std::vector<Hypothesis> rivals);
+
+  int id = -1;  ///< Track; -1 = none yet.
+  const Hypothesis& best() const { return hypotheses_.front(); }
+  const BodyEvidence& evidence() const { return evidence_; }
+  const body_model::BodyModel& model() const { return *model_; }
+  double unseen_s() const { return unseen_s_; }
+  bool IsDoubtful() const;
+  bool IsNobody() const;  ///< It has been explained badly for too long.
+  body_model::TrackedBody Describe();
+  body_model::PersonModel DescribeModel(Timestamp time) const;
+
+ private:
+  void Fit(const std::optional<body_model::Floor>& floor, const body_model::BodyPose& predicted,
+           double seconds, Hypothesis& hypothesis);
+  void Choose();
+  void Remember(double seconds);
+  void LearnShape();
+  void Wear(const CalibratedShape& shape);
+
+  FollowSettings settings_;
+  const body_model::BodyPlan* plan_;
+  anthropometry::PersonEstimate estimate_;
+  std::unique_ptr<body_model::BodyModel> first_model_;  ///< Before anything was learned.
+  std::unique_ptr<body_model::BodyModel> model_;
+  std::unique_ptr<BodyFitter> fitter_;
+  BodyEvidence evidence_;
+  std::vector<Hypothesis> hypotheses_;  ///< The best one first.
+  double unseen_s_ = 0.0;
+  std::vector<ShapeFrame> frames_;
+  double since_frame_s_ = 0.0;
+  int next_lesson_ = 0;  ///< Number of frames that the shape is learned from next; 0 = no more.
+};
+
+}  // namespace deixis::pose_fitter
