@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -11,11 +12,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from deixis_frontend import layout
 from deixis_frontend.cli import main
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import (
-    pose, pose_chain, pose_geometry, pose_matching, pose_outlines, pose_plots, pose_report, pose_results,
-    pose_scores)
+    pose, pose_chain, pose_geometry, pose_matching, pose_outlines, pose_plots, pose_real, pose_report,
+    pose_results, pose_scores)
 from deixis_frontend.evaluation.pose_joints import INDEX, JOINTS, NAMES, JointPlace
 from deixis_frontend.evaluation.pose_matching import JudgedPerson, JudgedScene
 from deixis_frontend.evaluation.pose_results import HIDDEN, INFERRED, LOST, MEASURED, FoundFrame, FoundPerson
@@ -342,7 +344,7 @@ def fitter_fixture(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, ...]]:
     """Stands for the programs: finds everybody, but for the first 6 frames. Returns the settings of each run."""
     asked: list[tuple[str, ...]] = []
 
-    def fit(_: Any, log: Path, __: Any, settings: tuple[str, ...]) -> pose_chain.Fitted:
+    def fit(_: Any, log: Path, __: Any, settings: tuple[str, ...], ___: Path) -> pose_chain.Fitted:
         if log.name == "broken":
             raise UserError("deixis-offline failed: no room")
         asked.append(settings)
@@ -405,6 +407,68 @@ def test_a_sequence_that_fails_is_named_and_the_exit_code_tells(
 def test_no_data_is_not_measured(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["evaluate", "pose", "--data", str(tmp_path / "none")]) == 1
     assert "nothing was measured" in capsys.readouterr().err
+
+
+@pytest.fixture(name="programs")
+def programs_fixture(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
+    """What is asked of the programs, which write empty logs."""
+    asked: list[list[str]] = []
+
+    def run_program(_: Any, name: str, *arguments: str) -> str:
+        asked.append([name, *arguments])
+        if name == "deixis-offline":
+            Path(arguments[1]).write_bytes(b"")
+            Path(arguments[arguments.index("--times") + 1]).write_text(
+                "service,channel,time_us,cpu_us\npose_fitter,STEREO,0,5000\npose_fitter,STEREO_CALIBRATION,0,3\n"
+                "stereo_driver,STEREO_PAIR,0,20000\n")
+        else:
+            Path(arguments[-1].removeprefix("file://").removesuffix("?mode=w")).write_bytes(b"")
+        return ""
+
+    monkeypatch.setattr(pose_chain, "run_program", run_program)
+    return asked
+
+
+def test_depth_is_made_once_for_the_same_recording_and_settings(tmp_path: Path, programs: list[list[str]]) -> None:
+    folder = _write_sequence(tmp_path / "walk")
+    chain = pose_chain.Chain(stereo_settings=("matcher.match_size=full",), cache=tmp_path / "cache")
+    first = pose_chain.stereo_log(layout.find(), folder, chain, tmp_path)
+    assert pose_chain.stereo_log(layout.find(), folder, chain, tmp_path) == first and len(programs) == 1
+    assert f"source.left.path={folder / 'left.mp4'}" in programs[0] and "matcher.match_size=full" in programs[0]
+    other = pose_chain.Chain(stereo_settings=("matcher.match_size=half",), cache=tmp_path / "cache")
+    assert pose_chain.stereo_log(layout.find(), folder, other, tmp_path) != first
+    (folder / "left.mp4").write_text("another film")
+    assert pose_chain.stereo_log(layout.find(), folder, chain, tmp_path) != first
+    assert not list((tmp_path / "cache").glob("*.part"))
+
+
+def test_the_fitter_runs_alone_unless_more_is_asked_for(tmp_path: Path, programs: list[list[str]]) -> None:
+    log = tmp_path / "walk.lcmlog"
+    alone = pose_chain.fit(layout.find(), log, pose_chain.Chain(("fit.a=1",)), ("fitter.stature_m=1.8",), tmp_path)
+    assert alone.fit_ms == [5.0] and alone.messages == []
+    chain = pose_chain.Chain(uses_hands=True, matches_with_fitter=True, stereo_settings=("matcher.b=2",))
+    pose_chain.fit(layout.find(), log, chain, (), tmp_path)
+    services = [said[said.index("--services") + 1] for said in programs]
+    assert services == ["pose_fitter", "object_detector,hand_tracker,stereo_driver,pose_fitter"]
+    assert [word for word in programs[0] if "=" in word] == ["pose_fitter.fitter.stature_m=1.8", "pose_fitter.fit.a=1"]
+    assert {"stereo_driver.matcher.b=2", f"stereo_driver.calibration.intrinsics={tmp_path}/intrinsics.yml",
+            "hand_tracker.image_channel=STEREO"} <= set(programs[1])
+    pose_chain.fit(layout.find(), log, chain)  # Of a depth camera: there are no pairs.
+    assert "object_detector,hand_tracker,pose_fitter" in programs[2]
+
+
+def test_what_is_described_is_what_is_reported(tmp_path: Path, fitter: list[tuple[str, ...]],
+                                              repository: Path) -> None:
+    _write_sequence(tmp_path / "walk")
+    assert main(["evaluate", "pose", "--data", str(tmp_path), "--json", str(tmp_path / "pose.json")]) == 0
+    summary = json.loads((tmp_path / "pose.json").read_text())["summary"]["stature_given"]
+    text = (repository / "test/evaluation/README.md").read_text(encoding="utf-8")
+    described = {word for line in text.splitlines() if line.startswith("|") for word in re.findall(r"`(\w+)`", line)}
+    kinds = {kind.NAME for kind in pose_real.KINDS}
+    words_of_messages_and_files = {"null", "lost", "visible", "bystanders"}
+    assert kinds <= described
+    assert described - kinds - words_of_messages_and_files <= set(summary)
+    assert fitter
 
 
 def test_the_legend_explains_each_column_of_the_table() -> None:

@@ -125,8 +125,23 @@ def test_a_sequence_without_anybody_is_lost_and_teaches_nothing(kinect: Any) -> 
     report = kinect(2, lambda name, _, joints: [] if "_s1_" in name else [_person(joints)])
     assert report["summary"]["sequences_lost"] == 1 and report["summary"]["lost_frames_percent"] == 50.0
     rows = {row["name"]: row for row in report["sequences"]}
+    assert report["summary"]["found_p95_with_offsets_m"] == 0.0 and report["summary"]["p95_with_offsets_m"] is None
+    assert rows["a1_s1_t1"]["found_median_with_offsets_m"] is None
     assert rows["a1_s1_t1"]["median_m"] is None and rows["a1_s2_t1"]["median_with_offsets_m"] == 0.0
     assert any("sequences lost: 1 of 2" in line for line in pose_mhad.lines(report))
+
+
+def test_a_joint_that_is_wrong_teaches_nothing(kinect: Any) -> None:
+    def moved(name: str, _: int, joints: np.ndarray) -> list[FoundPerson]:
+        places = joints.copy()
+        if "_s1_" in name:
+            places[:, 0][_KINECT.index("right_wrist")] += 0.4
+        return [_person(places)]
+
+    joints = kinect(2, moved)["summary"]["joints"]
+    assert joints["left_wrist"]["found_p95_with_offsets_m"] == 0.0
+    assert joints["right_wrist"]["found_p95_with_offsets_m"] == pytest.approx(0.4, abs=1e-4)
+    assert joints["right_wrist"]["median_with_offsets_m"] == pytest.approx(0.2, abs=1e-4)  # One of two has none.
 
 
 # A man who turns.

@@ -50,6 +50,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--columns", choices=(*COLUMNS, "both"), default="both",
                         help="what is told of the people (default: both, one after the other)")
     parser.add_argument("--hands", action="store_true", help="let the fitter hear of hands and faces, too")
+    parser.add_argument("--together", action="store_true",
+                        help="run stereo driver and fitter in one process, so that the driver hears of the bodies")
     parser.add_argument("--depth-cache", type=Path, metavar="DIR",
                         help="keep the logs of depth here, and take them from here")
     parser.add_argument("--jobs", type=positive_count, default=2, metavar="N",
@@ -86,7 +88,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _chain(arguments: argparse.Namespace) -> Chain:
     return Chain(tuple(arguments.settings), tuple(arguments.stereo_settings), arguments.hands,
-                 cache=arguments.depth_cache)
+                 arguments.together, arguments.depth_cache)
 
 
 def _run_all(where: layout.Layout, chain: Chain, arguments: argparse.Namespace, sequences: list[Sequence],
@@ -121,7 +123,7 @@ def _run_sequence(where: layout.Layout, sequence: Sequence, chain: Chain, column
         stature = pose_truth.stature_m(sequence) if column == "stature_given" else 0.0
         if stature is None:
             continue
-        fitted = pose_chain.fit(where, log, chain, (f"fitter.stature_m={stature:g}",))
+        fitted = pose_chain.fit(where, log, chain, (f"fitter.stature_m={stature:g}",), sequence.folder)
         judged = pose_matching.judge(scene, pose_results.read(fitted.messages))
         runs.append(Run(sequence, column, scene, judged, fitted.fit_ms))
         if plots:  # At once: messages of all runs together are too much to keep.

@@ -47,17 +47,19 @@ class Fitted:
     fit_ms: list[float] = field(default_factory=list)
 
 
-def fit(layout: Layout, log: Path, chain: Chain, settings: Iterable[str] = ()) -> Fitted:
-    """Runs the pose fitter over a log of STEREO (or of STEREO_PAIR). `settings` go before the chain's own.
-    Raises UserError when a program fails."""
+def fit(layout: Layout, log: Path, chain: Chain, settings: Iterable[str] = (),
+        recording: Path | None = None) -> Fitted:
+    """Runs the pose fitter over a log of STEREO; over its STEREO_PAIR where the chain matches with the fitter and
+    the log is of a stereo `recording`. `settings` go before the chain's own. UserError when a program fails."""
     layout.use_types()
     from deixis_lcm import logs
 
-    services = [*(_HANDS if chain.uses_hands else ()), *((_DRIVER,) if chain.matches_with_fitter else ()),
-                _FITTER]
+    matched = recording if chain.matches_with_fitter else None
+    services = [*(_HANDS if chain.uses_hands else ()), *((_DRIVER,) if matched else ()), _FITTER]
     said = [*(_BY_STEREO if chain.uses_hands else ()),
-            *(f"{_FITTER}.{setting}" for setting in (*settings, *chain.fitter_settings)),
-            *(f"{_DRIVER}.{setting}" for setting in chain.stereo_settings if chain.matches_with_fitter)]
+            *(f"{_FITTER}.{setting}" for setting in (*settings, *chain.fitter_settings))]
+    if matched:
+        said += [f"{_DRIVER}.{setting}" for setting in (*_calibration(matched), *chain.stereo_settings)]
     with tempfile.TemporaryDirectory() as folder:
         results, times = Path(folder) / "results.lcmlog", Path(folder) / "times.csv"
         run_program(layout, "deixis-offline", str(log), str(results), "--results-only",
@@ -88,11 +90,15 @@ def _driver_options(folder: Path, chain: Chain) -> list[str]:
     folder = folder.resolve()
     said = [f"source.{side}.{key}" for side in ("left", "right")
             for key in ("kind=video", f"path={folder / side}.mp4")]
-    said += [f"calibration.{name}={folder / name}.yml" for name in ("intrinsics", "extrinsics")]
+    said += _calibration(folder)
     said += ["pace=as_fast_as_possible", *chain.stereo_settings]
     if chain.matches_with_fitter:
         said.append("publishes_pairs=true")
     return [word for setting in said for word in ("--set", setting)]
+
+
+def _calibration(folder: Path) -> list[str]:
+    return [f"calibration.{name}={folder.resolve() / name}.yml" for name in ("intrinsics", "extrinsics")]
 
 
 def _key(layout: Layout, folder: Path, chain: Chain) -> str:
