@@ -413,6 +413,8 @@ void Bus::Flush() {
 
 bool Bus::is_exhausted() const { return implementation_->is_exhausted; }
 
+bool Bus::can_receive() const { return implementation_->lcm != nullptr; }
+
 bool Bus::is_live() const {
   return implementation_->url.provider == "udpm" || implementation_->url.provider == "tcpq";
 }

@@ -108,6 +108,7 @@ class Bus {
 
   bool is_exhausted() const;  ///< A log that is being read has come to its end.
   bool is_live() const;       ///< Other processes listen: udpm or tcpq.
+  bool can_receive() const;   ///< Not a log that is being written: Subscribe would throw.
   /// Since the start. Datagrams that the kernel dropped since its buffer was full cannot be told by
   /// channel: they stand under kAllChannels as "kernel_buffer_full", when there are any.
   std::vector<messages::ChannelStatistics> statistics() const;

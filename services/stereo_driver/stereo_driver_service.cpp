@@ -101,7 +101,8 @@ std::unique_ptr<FrameSource> StereoDriverService::SourceOf(const StereoDriverSer
 }
 
 void StereoDriverService::Listen(transport::Bus& input) {
-  if (!config_.poses_channel.empty() && config_.driver.LooksForPeople()) {
+  // Who writes a log is told nothing: people are then found by what stands out.
+  if (!config_.poses_channel.empty() && config_.driver.LooksForPeople() && input.can_receive()) {
     input.Subscribe<body_model::BodyPoses>(
         config_.poses_channel, Delivery::kEvery,
         [this](const body_model::BodyPoses& poses) { driver_.Hear(poses); });

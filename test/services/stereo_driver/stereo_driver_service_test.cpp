@@ -480,6 +480,19 @@ TEST_F(PeopleServiceTest, HearsNobodyWithoutAChannelOrAtHalfSize) {
   EXPECT_EQ(DifferencesTo(nobody, {poses_}), 0);
 }
 
+TEST_F(PeopleServiceTest, WritesALogToWhichNobodySaysWherePeopleAre) {
+  UseFolders(FrameSourceKind::kTwoCameras);
+  Write("left1.png", pair_.left.bgr);
+  Write("right1.png", pair_.right.bgr);
+  transport::BusOptions options;
+  options.url = "file://" + (folder_.path() / "depth.lcmlog").string() + "?mode=w";
+  transport::Bus bus(options);
+  StereoDriverService service(config_, bus, bus);
+  while (service.Step() != program::StepResult::kFinished) {
+  }
+  EXPECT_FALSE(service.health().is_degraded);
+}
+
 TEST(StereoDriverServiceConfig, DoesNotSendPairsToItself) {
   StereoDriverServiceConfig config;
   config.driver.source.kind = FrameSourceKind::kPairChannel;

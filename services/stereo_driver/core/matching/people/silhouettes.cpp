@@ -22,7 +22,7 @@ constexpr float kPerGreyLevel = 0.1F;  // What the right picture counts.
 constexpr float kLargestMiss = 30.0F;  // Grey levels.
 constexpr float kLargestVote = 2.0F;
 constexpr float kUndecided = 0.5F;   // Stays.
-constexpr float kGivenBack = -0.3F;  // A body's pixel lost costs more than one kept too many.
+constexpr float kGivenBack = -0.6F;  // A body's pixel lost costs more than one kept too many.
 constexpr std::int16_t kHighest = std::numeric_limits<std::int16_t>::max();
 
 cv::Mat View(cv::Mat& buffer, cv::Size picture, cv::Size window, int type) {
