@@ -55,7 +55,7 @@ class PoseFitterTest : public ::testing::Test {
 };
 
 TEST_F(PoseFitterTest, FindsTheJointsOfSomebodyWhoStands) {
-  const auto pose = test::StandingIn(room_, body_, 0.2, 2.6);
+  const auto pose = test::StandingIn(room_, body_, 0.2, 2.6, 0.3);
   const auto picture = WithPerson(pose);
   for (int i = 0; i < 30; ++i) Show(picture);
   const auto& poses = Show(picture);
