@@ -41,7 +41,7 @@ TEST_F(StarterTest, FindsTheRootOfSomebodyWhoStands) {
   EXPECT_LE(starts[0].mean_score, StarterConfig{}.worst_score);
 }
 
-TEST_F(StarterTest, OffersNobodyForABox) {
+TEST_F(StarterTest, ScoresABoxWorseThanAPersonOrOffersNobody) {
   room_.Add(test::Box{{-0.4, 2.4, 0.0}, {0.4, 2.8, 1.7}});
   test::Picture picture = test::Look(room_, 240);
   view_.Update(picture.camera, picture.depth_mm);
@@ -69,7 +69,7 @@ TEST_F(StarterTest, OffersNobodyForABox) {
   }
 }
 
-TEST_F(StarterTest, FindsThePersonAlsoFromBehindThoughDearer) {
+TEST_F(StarterTest, ScoresSomebodyWhoTurnsHisBackWorse) {
   auto back = test::StandingIn(room_, body_, 0.0, 2.6);
   const double facing = FacingPenalty(StarterConfig{}, back);
   back.frame_from_root.rotation =
