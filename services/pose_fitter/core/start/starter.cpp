@@ -6,12 +6,13 @@
 namespace deixis::pose_fitter {
 namespace {
 
-BodyFitterConfig FirstFit(const StarterConfig& config, BodyFitterConfig fit) {
-  fit.iterations = config.iterations;
-  fit.first_scale_m = config.first_scale_m;
-  fit.first_reach_m = config.first_reach_m;
-  fit.most_rest_rad = config.rest_rad;
-  fit.upright_rad = config.upright_rad;
+FitSettings FirstFit(const StarterConfig& config, FitSettings fit) {
+  fit.articulated.iterations = config.iterations;
+  fit.articulated.first_scale_m = config.first_scale_m;
+  fit.articulated.first_reach_m = config.first_reach_m;
+  fit.articulated.most_rest_rad = config.rest_rad;
+  fit.articulated.upright_rad = config.upright_rad;
+  fit.limb_icp.reach_m = config.first_reach_m;
   return fit;
 }
 
@@ -39,7 +40,7 @@ double FacingPenalty(const StarterConfig& config, const body_model::BodyPose& po
 }
 
 Starter::Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence,
-                 const BodyFitterConfig& fit)
+                 const FitSettings& fit)
     : config_(config),
       gate_m_(evidence.gate_m),
       first_fit_(FirstFit(config, fit)),
@@ -49,17 +50,19 @@ Starter::Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence
 std::vector<Hypothesis> Starter::Find(const DepthView& view, const PeopleRegions& regions,
                                       const PersonRegion& region,
                                       const body_model::BodyModel& model) {
-  BodyFitter first(first_fit_, model), second(second_fit_, model);
+  body_model::Kinematics kinematics(model);
+  const auto first = MakePoseMethod(first_fit_, model);
+  const auto second = MakePoseMethod(second_fit_, model);
   std::optional<Hypothesis> facing, turned;
   const Eigen::Vector3d top_m = TopOf(view, regions.labels, region, regions.floor, config_.head_m);
   for (const body_model::BodyPose& guess : StartPoses(model, top_m, regions.floor)) {
     Hypothesis start;
     start.pose = guess;
-    evidence_.Gather(view, first.kinematics(), {&guess}, regions.floor, {}, config_.gate_m);
-    first.Fit(evidence_, regions.floor, guess, std::nullopt, start.pose);
-    evidence_.Gather(view, second.kinematics(), {&start.pose}, regions.floor, {}, gate_m_);
-    start.result = second.Fit(evidence_, regions.floor, guess, std::nullopt, start.pose);
-    start.information = second.information();
+    evidence_.Gather(view, kinematics, {&guess}, regions.floor, {}, config_.gate_m);
+    first->Fit(evidence_, regions.floor, guess, std::nullopt, start.pose);
+    evidence_.Gather(view, kinematics, {&start.pose}, regions.floor, {}, gate_m_);
+    start.result = second->Fit(evidence_, regions.floor, guess, std::nullopt, start.pose);
+    start.information = second->information();
     start.rates_rad_per_s.setZero(model.angle_count());
     start.mean_score = start.result.score + FacingPenalty(config_, start.pose);
     if (start.mean_score > config_.worst_score || start.result.trunk_seen < config_.least_trunk) {

@@ -5,7 +5,7 @@
 #include "common/body_model/tracked_body.h"
 #include "services/pose_fitter/core/bodies/hypothesis.h"
 #include "services/pose_fitter/core/fitting/body_evidence.h"
-#include "services/pose_fitter/core/fitting/body_fitter.h"
+#include "services/pose_fitter/core/fitting/method_choice.h"
 #include "services/pose_fitter/core/people/people_finder.h"
 
 namespace deixis::pose_fitter {
@@ -44,8 +44,7 @@ double FacingPenalty(const StarterConfig& config, const body_model::BodyPose& po
 /// Finds poses of people of whom nothing but a region of the depth image is known.
 class Starter {
  public:
-  Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence,
-          const BodyFitterConfig& fit);
+  Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence, const FitSettings& fit);
 
   /// The best pose that faces the camera and the best one that does not, as far as they are good:
   /// two at most. `gate_m` is that of the evidence of the second fit.
@@ -55,7 +54,7 @@ class Starter {
  private:
   StarterConfig config_;
   double gate_m_;
-  BodyFitterConfig first_fit_, second_fit_;
+  FitSettings first_fit_, second_fit_;
   BodyEvidence evidence_;
 };
 
