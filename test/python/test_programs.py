@@ -38,6 +38,12 @@ def test_a_program_gets_its_arguments_and_the_configuration_folder(layout: Layou
     assert run_program(mine, "deixis-x", "a") == "a of 1 in /elsewhere\n"
 
 
+def test_a_program_that_crashes_is_said_to(layout: Layout) -> None:
+    write_program(layout, "echo '20 %' >&2; kill -SEGV $$")
+    with pytest.raises(UserError, match="^deixis-x failed: ended by Segmentation fault; before that: 20 %$"):
+        run_program(layout, "deixis-x")
+
+
 def test_a_hint_below_the_error_is_passed_over(layout: Layout) -> None:
     write_program(layout, "echo '--x: unknown option' >&2; echo 'Run with --help for more"
                           " information.' >&2; exit 2")

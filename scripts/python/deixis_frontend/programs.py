@@ -34,6 +34,8 @@ def program_lines(layout: Layout, name: str, *arguments: str) -> Iterator[str]:
         if program.returncode != 0:
             said.seek(0)
             reason = last_words(said.read()) or f"exit code {program.returncode}"
+            if program.returncode < 0:  # What it said last is no reason then.
+                reason = f"ended by {signal.strsignal(-program.returncode)}; before that: {reason}"
             raise UserError(f"{name} failed: {reason.removeprefix(f'{name}: ')}")
 
 

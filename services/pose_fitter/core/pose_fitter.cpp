@@ -29,7 +29,7 @@ PoseFitter::PoseFitter(const PoseFitterConfig& config)
       sound_(config.sound),
       floor_tracker_(config.floor),
       finder_(config.people),
-      starter_(config.start, config.evidence, {config.method, config.fit, config.limb_icp}),
+      starter_(config.start, config.evidence, config.fit),
       tracks_(config.tracks) {}
 
 const body_model::BodyPoses& PoseFitter::Track(const images::DepthImage& image,
@@ -57,7 +57,11 @@ void PoseFitter::FollowAll(double seconds) {
   const auto gone = [this](const auto& person) {
     return person->unseen_s() > config_.tracks.hidden_time_s || person->IsNobody();
   };
-  people_.erase(std::remove_if(people_.begin(), people_.end(), gone), people_.end());
+  const auto kept = std::remove_if(people_.begin(), people_.end(), gone);
+  if (kept == people_.end()) return;
+  people_.erase(kept, people_.end());
+  taken_.assign(taken_.size(), 0);  // Places have changed.
+  for (std::size_t i = 0; i < people_.size(); ++i) Take(i);
 }
 
 void PoseFitter::Take(std::size_t person) {

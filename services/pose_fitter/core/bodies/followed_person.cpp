@@ -28,6 +28,8 @@ void FollowConfig::Validate() const {
   faults.Require(velocity_share >= 0.0 && velocity_share <= 1.0, "velocity_share", "must be 0..1");
   faults.Require(settle_s > 0.0, "settle_s", "must be positive");
   faults.Require(doubtful_score > 0.0, "doubtful_score", "must be positive");
+  faults.Require(proven_score > 0.0, "proven_score", "must be positive");
+  faults.Require(lost_score > 0.0, "lost_score", "must be positive");
   faults.Require(least_points >= 10, "least_points", "must be at least 10");
   faults.Require(position_sigma_m >= 0.0, "position_sigma_m", "must not be negative");
   faults.Require(covariance_factor > 0.0, "covariance_factor", "must be positive");
@@ -98,6 +100,7 @@ void FollowedPerson::Choose() {
   while (hypotheses_.size() > 1 && hypotheses_.back().age_s >= settings_.follow.settle_s) {
     hypotheses_.pop_back();
   }
+  if (best().mean_score < settings_.follow.proven_score) is_proven_ = true;
 }
 
 void FollowedPerson::AddRivals(std::vector<Hypothesis> rivals) {
@@ -112,7 +115,8 @@ bool FollowedPerson::IsDoubtful() const {
 
 bool FollowedPerson::IsNobody() const {
   return best().age_s > 2.0 * settings_.follow.settle_s &&
-         best().mean_score > settings_.start.worst_score;
+         best().mean_score >
+             (is_proven_ ? settings_.follow.lost_score : settings_.start.worst_score);
 }
 
 // Images for the person's shape: such without doubt, apart from each other.
@@ -158,8 +162,8 @@ void FollowedPerson::Wear(const CalibratedShape& shape) {
 }
 
 Eigen::MatrixXd FollowedPerson::CovarianceOf(const Eigen::MatrixXd& information) const {
+  if (settings_.fit.method == FitMethod::kLimbIcp) return {};
   const auto size = information.rows();
-  if (size == 0) return {};
   Eigen::MatrixXd covariance = settings_.follow.covariance_factor *
                                information.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
   const double variance_m2 = settings_.follow.position_sigma_m * settings_.follow.position_sigma_m;

@@ -17,6 +17,8 @@ struct FollowConfig {
   double velocity_share = 0.6;      ///< Of the motion that goes on from image to image.
   double settle_s = 0.5;            ///< Time that rival poses have to prove themselves.
   double doubtful_score = 0.4;      ///< From here on other poses of the person are tried.
+  double proven_score = 0.35;       ///< Who was once explained so well is somebody,
+  double lost_score = 0.8;          ///< and only gone from here on; others by `worst_score`.
   int least_points = 50;            ///< With fewer a person is not seen.
   double position_sigma_m = 0.012;  ///< Spread of joint places that a fit does not know of.
   double covariance_factor = 1.0;   ///< Times the covariance that a fit believes in.
@@ -31,6 +33,8 @@ struct FollowConfig {
     v("velocity_share", velocity_share);
     v("settle_s", settle_s);
     v("doubtful_score", doubtful_score);
+    v("proven_score", proven_score);
+    v("lost_score", lost_score);
     v("least_points", least_points);
     v("position_sigma_m", position_sigma_m);
     v("covariance_factor", covariance_factor);
@@ -96,6 +100,7 @@ class FollowedPerson {
   std::unique_ptr<PoseMethod> fitter_;
   BodyEvidence evidence_;
   std::vector<Hypothesis> hypotheses_;  ///< The best one first.
+  bool is_proven_ = false;
   double unseen_s_ = 0.0;
   std::vector<ShapeFrame> frames_;
   double since_frame_s_ = 0.0;

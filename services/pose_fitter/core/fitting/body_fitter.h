@@ -86,6 +86,7 @@ class BodyFitter final : public PoseMethod {
                        const body_model::BodyPose& predicted, std::optional<double> seconds,
                        body_model::BodyPose& pose) override;
 
+  body_model::Kinematics& kinematics() { return kinematics_; }
   const Eigen::MatrixXd& information() const override { return equations_.information; }
   const std::vector<int>& winners() const override { return winners_; }
 

@@ -55,32 +55,6 @@ Vector3d UpOf(const std::optional<body_model::Floor>& floor) {
 
 }  // namespace
 
-Vector3d TopOf(const DepthView& view, const std::vector<std::uint8_t>& labels,
-               const PersonRegion& region, const std::optional<body_model::Floor>& floor,
-               double slab_m) {
-  const Vector3d up = UpOf(floor);
-  const cv::Rect& box = region.box_px;
-  const auto for_each = [&](const auto& visit) {
-    for (int v = box.y; v < box.y + box.height; ++v) {
-      for (int u = box.x; u < box.x + box.width; ++u) {
-        const auto pixel = static_cast<std::size_t>(v * view.width_px() + u);
-        if (labels[pixel] == region.label && view.z_m(u, v) > 0.0F) visit(view.Point(u, v));
-      }
-    }
-  };
-  double highest_m = -1e9;
-  for_each([&](const Vector3d& point_m) { highest_m = std::max(highest_m, up.dot(point_m)); });
-  Vector3d sum_m = Vector3d::Zero();
-  int count = 0;
-  for_each([&](const Vector3d& point_m) {
-    if (up.dot(point_m) < highest_m - slab_m) return;
-    sum_m += point_m;
-    ++count;
-  });
-  const Vector3d middle_m = count > 0 ? Vector3d(sum_m / count) : region.centroid_m;
-  return middle_m + (highest_m - up.dot(middle_m)) * up;
-}
-
 std::vector<BodyPose> StartPoses(const body_model::BodyModel& model, const Vector3d& head_top_m,
                                  const std::optional<body_model::Floor>& floor) {
   const Vector3d up = UpOf(floor);

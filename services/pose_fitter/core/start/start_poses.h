@@ -1,8 +1,9 @@
 #pragma once
+#include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "common/body_model/tracked_body.h"
-#include "services/pose_fitter/core/people/people_finder.h"
 
 namespace deixis::pose_fitter {
 
@@ -12,11 +13,5 @@ namespace deixis::pose_fitter {
 std::vector<body_model::BodyPose> StartPoses(const body_model::BodyModel& model,
                                              const Eigen::Vector3d& head_top_m,
                                              const std::optional<body_model::Floor>& floor);
-
-/// The top of a region: as high as it reaches, above the middle of its highest part, which is
-/// `slab_m` high.
-Eigen::Vector3d TopOf(const DepthView& view, const std::vector<std::uint8_t>& labels,
-                      const PersonRegion& region, const std::optional<body_model::Floor>& floor,
-                      double slab_m);
 
 }  // namespace deixis::pose_fitter

@@ -6,13 +6,12 @@
 namespace deixis::pose_fitter {
 namespace {
 
-FitSettings FirstFit(const StarterConfig& config, FitSettings fit) {
-  fit.articulated.iterations = config.iterations;
-  fit.articulated.first_scale_m = config.first_scale_m;
-  fit.articulated.first_reach_m = config.first_reach_m;
-  fit.articulated.most_rest_rad = config.rest_rad;
-  fit.articulated.upright_rad = config.upright_rad;
-  fit.limb_icp.reach_m = config.first_reach_m;
+BodyFitterConfig FirstFit(const StarterConfig& config, BodyFitterConfig fit) {
+  fit.iterations = config.iterations;
+  fit.first_scale_m = config.first_scale_m;
+  fit.first_reach_m = config.first_reach_m;
+  fit.most_rest_rad = config.rest_rad;
+  fit.upright_rad = config.upright_rad;
   return fit;
 }
 
@@ -26,7 +25,6 @@ void StarterConfig::Validate() const {
   faults.Require(rest_rad > 0.0, "rest_rad", "must be positive");
   faults.Require(upright_rad > 0.0, "upright_rad", "must be positive");
   faults.Require(gate_m > 0.0, "gate_m", "must be positive");
-  faults.Require(head_m > 0.0, "head_m", "must be positive");
   faults.Require(worst_score > 0.0, "worst_score", "must be positive");
   faults.Require(least_trunk >= 0.0 && least_trunk <= 1.0, "least_trunk", "must be 0..1");
   faults.Require(facing_away >= 0.0, "facing_away", "must not be negative");
@@ -40,7 +38,7 @@ double FacingPenalty(const StarterConfig& config, const body_model::BodyPose& po
 }
 
 Starter::Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence,
-                 const FitSettings& fit)
+                 const BodyFitterConfig& fit)
     : config_(config),
       gate_m_(evidence.gate_m),
       first_fit_(FirstFit(config, fit)),
@@ -50,33 +48,41 @@ Starter::Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence
 std::vector<Hypothesis> Starter::Find(const DepthView& view, const PeopleRegions& regions,
                                       const PersonRegion& region,
                                       const body_model::BodyModel& model) {
-  body_model::Kinematics kinematics(model);
-  const auto first = MakePoseMethod(first_fit_, model);
-  const auto second = MakePoseMethod(second_fit_, model);
+  first_.emplace(first_fit_, model);
+  second_.emplace(second_fit_, model);
   std::optional<Hypothesis> facing, turned;
-  const Eigen::Vector3d top_m = TopOf(view, regions.labels, region, regions.floor, config_.head_m);
-  for (const body_model::BodyPose& guess : StartPoses(model, top_m, regions.floor)) {
-    Hypothesis start;
-    start.pose = guess;
-    evidence_.Gather(view, kinematics, {&guess}, regions.floor, {}, config_.gate_m);
-    first->Fit(evidence_, regions.floor, guess, std::nullopt, start.pose);
-    evidence_.Gather(view, kinematics, {&start.pose}, regions.floor, {}, gate_m_);
-    start.result = second->Fit(evidence_, regions.floor, guess, std::nullopt, start.pose);
-    start.information = second->information();
-    start.rates_rad_per_s.setZero(model.angle_count());
-    start.mean_score = start.result.score + FacingPenalty(config_, start.pose);
-    if (start.mean_score > config_.worst_score || start.result.trunk_seen < config_.least_trunk) {
-      continue;
+  for (const Eigen::Vector3d& top_m : HeadTops(view, regions, region, config_.heads)) {
+    for (const body_model::BodyPose& guess : StartPoses(model, top_m, regions.floor)) {
+      auto start = Try(view, regions.floor, guess);
+      if (!start) continue;
+      const bool faces = FacingPenalty(config_, start->pose) <= 0.5 * config_.facing_away;
+      std::optional<Hypothesis>& best = faces ? facing : turned;
+      if (!best || start->mean_score < best->mean_score) best = std::move(start);
     }
-    const bool faces = FacingPenalty(config_, start.pose) <= 0.5 * config_.facing_away;
-    std::optional<Hypothesis>& best = faces ? facing : turned;
-    if (!best || start.mean_score < best->mean_score) best = std::move(start);
   }
   std::vector<Hypothesis> starts;
   for (auto* best : {&facing, &turned}) {
     if (*best) starts.push_back(std::move(**best));
   }
   return starts;
+}
+
+std::optional<Hypothesis> Starter::Try(const DepthView& view,
+                                       const std::optional<body_model::Floor>& floor,
+                                       const body_model::BodyPose& guess) {
+  Hypothesis start;
+  start.pose = guess;
+  evidence_.Gather(view, first_->kinematics(), {&guess}, floor, {}, config_.gate_m);
+  first_->Fit(evidence_, floor, guess, std::nullopt, start.pose);
+  evidence_.Gather(view, second_->kinematics(), {&start.pose}, floor, {}, gate_m_);
+  start.result = second_->Fit(evidence_, floor, guess, std::nullopt, start.pose);
+  start.information = second_->information();
+  start.rates_rad_per_s.setZero(guess.angles_rad.size());
+  start.mean_score = start.result.score + FacingPenalty(config_, start.pose);
+  if (start.mean_score > config_.worst_score || start.result.trunk_seen < config_.least_trunk) {
+    return std::nullopt;
+  }
+  return start;
 }
 
 }  // namespace deixis::pose_fitter

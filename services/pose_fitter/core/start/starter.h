@@ -5,8 +5,9 @@
 #include "common/body_model/tracked_body.h"
 #include "services/pose_fitter/core/bodies/hypothesis.h"
 #include "services/pose_fitter/core/fitting/body_evidence.h"
-#include "services/pose_fitter/core/fitting/method_choice.h"
+#include "services/pose_fitter/core/fitting/body_fitter.h"
 #include "services/pose_fitter/core/people/people_finder.h"
+#include "services/pose_fitter/core/start/head_tops.h"
 
 namespace deixis::pose_fitter {
 
@@ -17,10 +18,10 @@ struct StarterConfig {
   double rest_rad = 0.5;        ///< Spread of all joints about the start pose, in the first fit.
   double upright_rad = 0.25;    ///< Of the base limb about the vertical, likewise.
   double gate_m = 0.2;          ///< Pixels this near to a start pose may belong to the person.
-  double head_m = 0.25;         ///< Height of the part of a region that is taken for the head.
-  double worst_score = 0.6;     ///< Fits that are worse are nobody.
+  double worst_score = 0.5;     ///< Fits that are worse are nobody.
   double least_trunk = 0.5;     ///< Share of trunk and head that must be seen.
   double facing_away = 0.04;    ///< Added to the score of who turns the back: robots are looked at.
+  HeadTopsConfig heads;
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -30,10 +31,10 @@ struct StarterConfig {
     v("rest_rad", rest_rad);
     v("upright_rad", upright_rad);
     v("gate_m", gate_m);
-    v("head_m", head_m);
     v("worst_score", worst_score);
     v("least_trunk", least_trunk);
     v("facing_away", facing_away);
+    v("heads", heads);
   }
   void Validate() const;  ///< Throws FaultsFound.
 };
@@ -41,10 +42,12 @@ struct StarterConfig {
 /// What a pose that turns the back to the camera has added to its score.
 double FacingPenalty(const StarterConfig& config, const body_model::BodyPose& pose);
 
-/// Finds poses of people of whom nothing but a region of the depth image is known.
+/// Finds poses of people of whom nothing but a region of the depth image is known, by articulated
+/// fits: others want a pose to start from.
 class Starter {
  public:
-  Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence, const FitSettings& fit);
+  Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence,
+          const BodyFitterConfig& fit);
 
   /// The best pose that faces the camera and the best one that does not, as far as they are good:
   /// two at most. `gate_m` is that of the evidence of the second fit.
@@ -52,9 +55,14 @@ class Starter {
                                const PersonRegion& region, const body_model::BodyModel& model);
 
  private:
+  std::optional<Hypothesis> Try(const DepthView& view,
+                                const std::optional<body_model::Floor>& floor,
+                                const body_model::BodyPose& guess);
+
   StarterConfig config_;
   double gate_m_;
-  FitSettings first_fit_, second_fit_;
+  BodyFitterConfig first_fit_, second_fit_;
+  std::optional<BodyFitter> first_, second_;
   BodyEvidence evidence_;
 };
 
