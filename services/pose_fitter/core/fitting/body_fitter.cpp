@@ -52,6 +52,19 @@ LimbSurface SurfaceOf(const Eigen::Isometry3d& camera_from_limb,
   return surface;
 }
 
+LimbCapsule CapsuleOf(const Eigen::Isometry3d& camera_from_limb,
+                      const geometry::DegenerateCylinder& shape) {
+  const Vector3d begin_m(shape.centre0_m.x(), shape.centre0_m.y(), 0.0);
+  const Vector3d end_m(shape.centre1_m.x(), shape.centre1_m.y(), shape.length_m);
+  LimbCapsule capsule;
+  capsule.begin_m = (camera_from_limb * begin_m).cast<float>();
+  capsule.along_m = (camera_from_limb.linear() * (end_m - begin_m)).cast<float>();
+  capsule.inverse_length2 = 1.0F / capsule.along_m.squaredNorm();
+  capsule.radius_m =
+      static_cast<float>(std::max({shape.a0_m, shape.b0_m, shape.a1_m, shape.b1_m}));
+  return capsule;
+}
+
 RayPoints Slice(const BodyPoints& points, int first, int count) {
   return {points.x_m.data() + first, points.y_m.data() + first, points.z_m.data() + first,
           points.sigma_z_m.data() + first, count};
@@ -63,6 +76,12 @@ Vector3d RotationVector(const Eigen::Quaterniond& rotation) {
 }
 
 }  // namespace
+
+float LimbCapsule::Distance_m(const Eigen::Vector3f& point_m) const {
+  const Eigen::Vector3f from_m = point_m - begin_m;
+  const float share = std::clamp(from_m.dot(along_m) * inverse_length2, 0.0F, 1.0F);
+  return (from_m - share * along_m).norm() - radius_m;
+}
 
 void JointFreedom::Validate() const {
   config::Faults faults;
@@ -102,8 +121,7 @@ BodyFitter::BodyFitter(const BodyFitterConfig& config, const body_model::BodyMod
       limb_equations_(model.limb_count()) {
   const auto count = static_cast<std::size_t>(model.limb_count());
   surfaces_.resize(count);
-  ball_centres_m_.resize(count);
-  ball_radii_m_.resize(count);
+  capsules_.resize(count);
   first_of_limb_.resize(count + 1);
   next_of_limb_.resize(count);
   sums_.resize(count);
@@ -152,12 +170,7 @@ void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
     const auto k = static_cast<std::size_t>(limb);
     const auto& shape = model_->limbs()[k].shape;
     surfaces_[k] = SurfaceOf(kinematics_.limb(limb), shape);
-    const Vector3d middle =
-        0.5 * Vector3d(shape.centre0_m.x() + shape.centre1_m.x(),
-                       shape.centre0_m.y() + shape.centre1_m.y(), shape.length_m);
-    ball_centres_m_[k] = (kinematics_.limb(limb) * middle).cast<float>();
-    const double thick_m = std::max({shape.a0_m, shape.b0_m, shape.a1_m, shape.b1_m});
-    ball_radii_m_[k] = static_cast<float>(std::hypot(0.5 * shape.length_m, thick_m));
+    capsules_[k] = CapsuleOf(kinematics_.limb(limb), shape);
   }
   const auto across = static_cast<float>(config_.across_m);
   const auto reach = static_cast<float>(reach_m);
@@ -166,8 +179,7 @@ void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
   for (const PointBlock& block : points.blocks) {
     const RayScores scores{scores_.data() + block.first, winners_.data() + block.first};
     for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-      const float apart = (ball_centres_m_[k] - block.centre_m).norm();
-      if (apart > ball_radii_m_[k] + block.radius_m + reach) continue;
+      if (capsules_[k].Distance_m(block.centre_m) > block.radius_m + reach) continue;
       ScoreLimb(surfaces_[k], static_cast<int>(k), across, Slice(points, block.first, block.count),
                 scores);
     }

@@ -75,6 +75,16 @@ struct BodyFitterConfig {
   void Validate() const;  ///< Throws FaultsFound.
 };
 
+/// A rod of one radius with round ends that holds a limb, in the camera's frame.
+struct LimbCapsule {
+  Eigen::Vector3f begin_m = Eigen::Vector3f::Zero();
+  Eigen::Vector3f along_m = Eigen::Vector3f::UnitZ();  ///< To its other end.
+  float inverse_length2 = 1.0F;
+  float radius_m = 0.0F;
+
+  float Distance_m(const Eigen::Vector3f& point_m) const;  ///< Negative inside.
+};
+
 /// Fits a body to the evidence of one depth image by damped Gauss-Newton steps over root and joint
 /// angles, which keep the parts connected by construction. Takes its memory once per number of
 /// points.
@@ -114,8 +124,7 @@ class BodyFitter final : public PoseMethod {
   Eigen::LDLT<Eigen::MatrixXd> factors_;
   Eigen::VectorXd step_;
   std::vector<LimbSurface> surfaces_;
-  std::vector<Eigen::Vector3f> ball_centres_m_;  ///< Around each limb.
-  std::vector<float> ball_radii_m_;
+  std::vector<LimbCapsule> capsules_;  ///< Around each limb.
   std::vector<float> scores_;
   std::vector<int> winners_;
   BodyPoints sorted_;
