@@ -60,8 +60,7 @@ LimbCapsule CapsuleOf(const Eigen::Isometry3d& camera_from_limb,
   capsule.begin_m = (camera_from_limb * begin_m).cast<float>();
   capsule.along_m = (camera_from_limb.linear() * (end_m - begin_m)).cast<float>();
   capsule.inverse_length2 = 1.0F / capsule.along_m.squaredNorm();
-  capsule.radius_m =
-      static_cast<float>(std::max({shape.a0_m, shape.b0_m, shape.a1_m, shape.b1_m}));
+  capsule.radius_m = static_cast<float>(std::max({shape.a0_m, shape.b0_m, shape.a1_m, shape.b1_m}));
   return capsule;
 }
 
@@ -122,6 +121,7 @@ BodyFitter::BodyFitter(const BodyFitterConfig& config, const body_model::BodyMod
   const auto count = static_cast<std::size_t>(model.limb_count());
   surfaces_.resize(count);
   capsules_.resize(count);
+  near_.reserve(count);
   first_of_limb_.resize(count + 1);
   next_of_limb_.resize(count);
   sums_.resize(count);
@@ -176,13 +176,26 @@ void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
   const auto reach = static_cast<float>(reach_m);
   scores_.assign(count, reach / across);
   winners_.assign(count, -1);
-  for (const PointBlock& block : points.blocks) {
-    const RayScores scores{scores_.data() + block.first, winners_.data() + block.first};
-    for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-      if (capsules_[k].Distance_m(block.centre_m) > block.radius_m + reach) continue;
-      ScoreLimb(surfaces_[k], static_cast<int>(k), across, Slice(points, block.first, block.count),
-                scores);
-    }
+  for (const PointBlock& block : points.blocks) AssignBlock(points, block, reach);
+}
+
+// From the nearest limb on: those come no further that are too far to explain any point better.
+void BodyFitter::AssignBlock(const BodyPoints& points, const PointBlock& block, float reach_m) {
+  near_.clear();
+  for (std::size_t k = 0; k < capsules_.size(); ++k) {
+    const float gap_m = capsules_[k].Distance_m(block.centre_m) - block.radius_m;
+    if (gap_m <= reach_m) near_.emplace_back(gap_m, static_cast<int>(k));
+  }
+  std::sort(near_.begin(), near_.end());
+  const auto across = static_cast<float>(config_.across_m);
+  const Eigen::Map<const Eigen::ArrayXf> sigmas(points.sigma_z_m.data() + block.first, block.count);
+  const Eigen::Map<const Eigen::ArrayXf> scores(scores_.data() + block.first, block.count);
+  const float unit_m = std::max(across, sigmas.maxCoeff());
+  for (const auto& [gap_m, limb] : near_) {
+    if (gap_m > scores.maxCoeff() * unit_m) break;
+    ScoreLimb(surfaces_[static_cast<std::size_t>(limb)], limb, across,
+              Slice(points, block.first, block.count),
+              {scores_.data() + block.first, winners_.data() + block.first});
   }
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/body_model/body_model.h"
@@ -102,6 +103,7 @@ class BodyFitter final : public PoseMethod {
 
  private:
   void Assign(const BodyPoints& points, double reach_m);
+  void AssignBlock(const BodyPoints& points, const PointBlock& block, float reach_m);
   void AddPoints(const BodyPoints& points, double scale_m);
   void AddPriors(const body_model::BodyPose& pose, const body_model::BodyPose& predicted,
                  std::optional<double> seconds);
@@ -124,7 +126,8 @@ class BodyFitter final : public PoseMethod {
   Eigen::LDLT<Eigen::MatrixXd> factors_;
   Eigen::VectorXd step_;
   std::vector<LimbSurface> surfaces_;
-  std::vector<LimbCapsule> capsules_;  ///< Around each limb.
+  std::vector<LimbCapsule> capsules_;        ///< Around each limb.
+  std::vector<std::pair<float, int>> near_;  ///< Limbs near a block: how far, which.
   std::vector<float> scores_;
   std::vector<int> winners_;
   BodyPoints sorted_;

@@ -47,8 +47,8 @@ struct Root {
 }
 
 /// Rays through side or discs: (U0 + t U1)^2 + k^2 (V0 + t V1)^2 = (A0 + t A1)^2 with k = a / b at
-/// the height of the meeting, which some rounds find: two to within what tells limbs apart, three to
-/// within what can be measured.
+/// the height of the meeting, which some rounds find: two to within what tells limbs apart, three
+/// to within what can be measured.
 template <int rounds>
 [[gnu::always_inline]] inline Meeting Meet(const LimbSurface& limb, float x, float y, float z) {
   const float* r = limb.camera_from_limb;
