@@ -101,7 +101,11 @@ void PoseFitter::Meet(const PersonRegion& region) {
   auto starts = starter_.Find(view_, regions, region, body.model);
   if (starts.empty()) return;
   people_.push_back(std::make_unique<FollowedPerson>(
-      FollowSettings{config_.follow, config_.start, config_.evidence, config_.fit, config_.shape},
+      FollowSettings{config_.follow,
+                     config_.start,
+                     config_.evidence,
+                     {config_.method, config_.fit, config_.limb_icp},
+                     config_.shape},
       body, maker_.plan(), std::move(starts)));
   people_.back()->Look(view_, floor_);
   Take(people_.size() - 1);

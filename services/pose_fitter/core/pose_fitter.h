@@ -21,8 +21,9 @@ namespace deixis::pose_fitter {
 
 struct PoseFitterConfig {
   std::string body_model = "body_models/clothed_body.yaml";  ///< The tree of limbs.
-  double stature_m = 0.0;         ///< Of the people who come; 0 = not known.
-  double stature_sigma_m = 0.01;  ///< Its spread.
+  FitMethod method = FitMethod::kArticulated;  ///< How bodies are fitted: articulated or limb_icp.
+  double stature_m = 0.0;                      ///< Of the people who come; 0 = not known.
+  double stature_sigma_m = 0.01;               ///< Its spread.
   double guessed_sigma_m = 0.06;  ///< Of a stature that is told from the height of the head.
   double search_s = 0.3;          ///< How often new people are looked for.
   double most_taken = 0.3;        ///< Share of a region that those who are followed may have of it.
@@ -33,12 +34,14 @@ struct PoseFitterConfig {
   StarterConfig start;
   FollowConfig follow;
   BodyEvidenceConfig evidence;
-  BodyFitterConfig fit;
+  BodyFitterConfig fit;    ///< By method articulated.
+  LimbIcpConfig limb_icp;  ///< By method limb_icp.
   ShapeConfig shape;
 
   template <typename Visitor>
   void Visit(Visitor& v) {
     v("body_model", body_model);
+    v("method", method);
     v("stature_m", stature_m);
     v("stature_sigma_m", stature_sigma_m);
     v("guessed_sigma_m", guessed_sigma_m);
@@ -52,6 +55,7 @@ struct PoseFitterConfig {
     v("follow", follow);
     v("evidence", evidence);
     v("fit", fit);
+    v("limb_icp", limb_icp);
     v("shape", shape);
   }
   void Validate() const;  ///< Throws FaultsFound.

@@ -48,7 +48,8 @@ FollowedPerson::FollowedPerson(const FollowSettings& settings, const PersonBody&
       estimate_(body.estimate),
       first_model_(std::make_unique<body_model::BodyModel>(body.model)),
       model_(std::make_unique<body_model::BodyModel>(body.model)),
-      fitter_(std::make_unique<BodyFitter>(settings.fit, *model_)),
+      kinematics_(std::make_unique<body_model::Kinematics>(*model_)),
+      fitter_(MakePoseMethod(settings.fit, *model_)),
       evidence_(settings.evidence),
       hypotheses_(std::move(starts)),
       next_lesson_(settings.follow.shape_frames) {
@@ -58,7 +59,7 @@ FollowedPerson::FollowedPerson(const FollowSettings& settings, const PersonBody&
 void FollowedPerson::Look(const DepthView& view, const std::optional<body_model::Floor>& floor) {
   std::vector<const BodyPose*> poses;
   for (const Hypothesis& hypothesis : hypotheses_) poses.push_back(&hypothesis.pose);
-  evidence_.Gather(view, fitter_->kinematics(), poses, floor, {}, settings_.evidence.gate_m);
+  evidence_.Gather(view, *kinematics_, poses, floor, {}, settings_.evidence.gate_m);
 }
 
 void FollowedPerson::Follow(const DepthView& view, const std::optional<body_model::Floor>& floor,
@@ -69,7 +70,7 @@ void FollowedPerson::Follow(const DepthView& view, const std::optional<body_mode
   }
   std::vector<const BodyPose*> poses;
   for (const BodyPose& pose : predicted) poses.push_back(&pose);
-  evidence_.Gather(view, fitter_->kinematics(), poses, floor, {&taken}, settings_.evidence.gate_m);
+  evidence_.Gather(view, *kinematics_, poses, floor, {&taken}, settings_.evidence.gate_m);
   if (evidence_.points().count() < settings_.follow.least_points) {
     unseen_s_ += seconds;
     return;
@@ -203,8 +204,19 @@ void FollowedPerson::LearnShape() {
 // Angles mean the same in the new body; its next fit starts from the pose that was learned with it.
 void FollowedPerson::Wear(const CalibratedShape& shape) {
   model_ = std::make_unique<body_model::BodyModel>(shape.model);
-  fitter_ = std::make_unique<BodyFitter>(settings_.fit, *model_);
+  kinematics_ = std::make_unique<body_model::Kinematics>(*model_);
+  fitter_ = MakePoseMethod(settings_.fit, *model_);
   hypotheses_.front().pose = shape.poses.back();
+}
+
+Eigen::MatrixXd FollowedPerson::CovarianceOf(const Eigen::MatrixXd& information) const {
+  if (settings_.fit.method == FitMethod::kLimbIcp) return {};
+  const auto size = information.rows();
+  Eigen::MatrixXd covariance = settings_.follow.covariance_factor *
+                               information.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+  const double variance_m2 = settings_.follow.position_sigma_m * settings_.follow.position_sigma_m;
+  covariance.diagonal().head<3>().array() += variance_m2;
+  return covariance;
 }
 
 body_model::TrackedBody FollowedPerson::Describe() {
@@ -216,12 +228,8 @@ body_model::TrackedBody FollowedPerson::Describe() {
   body.root_velocity_m_per_s = now.velocity_m_per_s;
   body.root_rate_rad_per_s = now.turn_rate_rad_per_s;
   body.rates_rad_per_s = now.rates_rad_per_s;
-  const auto size = now.information.rows();
-  body.covariance = settings_.follow.covariance_factor *
-                    now.information.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
-  const double variance_m2 = settings_.follow.position_sigma_m * settings_.follow.position_sigma_m;
-  body.covariance.diagonal().head<3>().array() += variance_m2;
-  body_model::PlaceLimbs(fitter_->kinematics(), body);
+  body.covariance = CovarianceOf(now.information);
+  body_model::PlaceLimbs(*kinematics_, body);
   for (std::size_t limb = 0; limb < body.limbs.size(); ++limb) {
     const LimbEvidence& evidence = now.result.limbs[limb];
     body.limbs[limb].inlier_count = evidence.inlier_count;

@@ -8,7 +8,7 @@
 #include "services/pose_fitter/core/bodies/hypothesis.h"
 #include "services/pose_fitter/core/bodies/person_body.h"
 #include "services/pose_fitter/core/fitting/body_evidence.h"
-#include "services/pose_fitter/core/fitting/body_fitter.h"
+#include "services/pose_fitter/core/fitting/method_choice.h"
 #include "services/pose_fitter/core/shape/shape_calibration.h"
 #include "services/pose_fitter/core/start/starter.h"
 
@@ -56,7 +56,7 @@ struct FollowSettings {
   FollowConfig follow;
   StarterConfig start;
   BodyEvidenceConfig evidence;
-  BodyFitterConfig fit;
+  FitSettings fit;
   ShapeConfig shape;
 };
 
@@ -96,13 +96,16 @@ class FollowedPerson {
   void Remember(double seconds);
   void LearnShape();
   void Wear(const CalibratedShape& shape);
+  /// 0 x 0 = not known.
+  Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& information) const;
 
   FollowSettings settings_;
   const body_model::BodyPlan* plan_;
   anthropometry::PersonEstimate estimate_;
   std::unique_ptr<body_model::BodyModel> first_model_;  ///< Before anything was learned.
   std::unique_ptr<body_model::BodyModel> model_;
-  std::unique_ptr<BodyFitter> fitter_;
+  std::unique_ptr<body_model::Kinematics> kinematics_;
+  std::unique_ptr<PoseMethod> fitter_;
   BodyEvidence evidence_;
   std::vector<Hypothesis> hypotheses_;  ///< The best one first.
   double since_arms_s_ = 0.0;

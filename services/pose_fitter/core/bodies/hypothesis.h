@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 
 #include "common/body_model/body_model.h"
-#include "services/pose_fitter/core/fitting/body_fitter.h"
+#include "services/pose_fitter/core/fitting/fit_result.h"
 
 namespace deixis::pose_fitter {
 
@@ -13,7 +13,8 @@ struct Hypothesis {
   Eigen::Vector3d turn_rate_rad_per_s = Eigen::Vector3d::Zero();  ///< Of the root, in the frame.
   Eigen::VectorXd rates_rad_per_s;                                ///< Of the angles.
   FitResult result;
-  Eigen::MatrixXd information;  ///< Of its last fit, in the order of body_model::PointJacobian.
+  Eigen::MatrixXd information;  ///< Of its last fit, in the order of body_model::PointJacobian;
+                                ///< 0 x 0 = not known.
   double mean_score = 0.0;      ///< Of the last few images; smaller is better.
   double age_s = 0.0;
 };

@@ -1,6 +1,5 @@
 #include "services/pose_fitter/core/fitting/body_fitter.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -16,13 +15,6 @@ using Eigen::Vector3d;
 constexpr double kLargestStep = 0.4;  // Radians and metres, of one round.
 constexpr double kDamping = 1e-3;
 constexpr double kFreeAngle_rad = 9.0;  // Rest spreads from here on are none.
-
-std::string WithoutSide(const std::string& limb) {
-  for (const std::string side : {"right_", "left_"}) {
-    if (limb.rfind(side, 0) == 0) return limb.substr(side.size());
-  }
-  return limb;
-}
 
 std::vector<JointFreedom> FreedomsOf(const BodyFitterConfig& config,
                                      const body_model::BodyModel& model) {
@@ -60,6 +52,18 @@ LimbSurface SurfaceOf(const Eigen::Isometry3d& camera_from_limb,
   return surface;
 }
 
+LimbCapsule CapsuleOf(const Eigen::Isometry3d& camera_from_limb,
+                      const geometry::DegenerateCylinder& shape) {
+  const Vector3d begin_m(shape.centre0_m.x(), shape.centre0_m.y(), 0.0);
+  const Vector3d end_m(shape.centre1_m.x(), shape.centre1_m.y(), shape.length_m);
+  LimbCapsule capsule;
+  capsule.begin_m = (camera_from_limb * begin_m).cast<float>();
+  capsule.along_m = (camera_from_limb.linear() * (end_m - begin_m)).cast<float>();
+  capsule.inverse_length2 = 1.0F / capsule.along_m.squaredNorm();
+  capsule.radius_m = static_cast<float>(std::max({shape.a0_m, shape.b0_m, shape.a1_m, shape.b1_m}));
+  return capsule;
+}
+
 RayPoints Slice(const BodyPoints& points, int first, int count) {
   return {points.x_m.data() + first, points.y_m.data() + first, points.z_m.data() + first,
           points.sigma_z_m.data() + first, count};
@@ -71,6 +75,12 @@ Vector3d RotationVector(const Eigen::Quaterniond& rotation) {
 }
 
 }  // namespace
+
+float LimbCapsule::Distance_m(const Eigen::Vector3f& point_m) const {
+  const Eigen::Vector3f from_m = point_m - begin_m;
+  const float share = std::clamp(from_m.dot(along_m) * inverse_length2, 0.0F, 1.0F);
+  return (from_m - share * along_m).norm() - radius_m;
+}
 
 void JointFreedom::Validate() const {
   config::Faults faults;
@@ -105,24 +115,23 @@ BodyFitter::BodyFitter(const BodyFitterConfig& config, const body_model::BodyMod
       kinematics_(model),
       rest_(body_model::Standing(model)),
       freedoms_(FreedomsOf(config, model)),
+      trunk_(TrunkOf(model)),
       outline_(config.outline, model),
       limb_equations_(model.limb_count()) {
   const auto count = static_cast<std::size_t>(model.limb_count());
   surfaces_.resize(count);
-  ball_centres_m_.resize(count);
-  ball_radii_m_.resize(count);
+  capsules_.resize(count);
+  near_.reserve(count);
   first_of_limb_.resize(count + 1);
+  next_of_limb_.resize(count);
   sums_.resize(count);
-  for (int i = 0; i < model.limb_count(); ++i) {
-    const auto& name = model.limbs()[static_cast<std::size_t>(i)].name;
-    if (WithoutSide(name) == name) trunk_.push_back(i);
-  }
+  result_.limbs.resize(count);
 }
 
-FitResult BodyFitter::Fit(const BodyEvidence& evidence,
-                          const std::optional<body_model::Floor>& floor,
-                          const body_model::BodyPose& predicted, std::optional<double> seconds,
-                          body_model::BodyPose& pose) {
+const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
+                                 const std::optional<body_model::Floor>& floor,
+                                 const body_model::BodyPose& predicted,
+                                 std::optional<double> seconds, body_model::BodyPose& pose) {
   const BodyPoints& points = evidence.points();
   const double weight =
       config_.point_weight * std::min(1.0, config_.counted_points / std::max(1, points.count()));
@@ -151,7 +160,8 @@ FitResult BodyFitter::Fit(const BodyEvidence& evidence,
   }
   Clamp(pose);
   kinematics_.Update(pose);
-  return Judge(evidence);
+  Judge(evidence);
+  return result_;
 }
 
 void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
@@ -160,25 +170,32 @@ void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
     const auto k = static_cast<std::size_t>(limb);
     const auto& shape = model_->limbs()[k].shape;
     surfaces_[k] = SurfaceOf(kinematics_.limb(limb), shape);
-    const Vector3d middle =
-        0.5 * Vector3d(shape.centre0_m.x() + shape.centre1_m.x(),
-                       shape.centre0_m.y() + shape.centre1_m.y(), shape.length_m);
-    ball_centres_m_[k] = (kinematics_.limb(limb) * middle).cast<float>();
-    const double thick_m = std::max({shape.a0_m, shape.b0_m, shape.a1_m, shape.b1_m});
-    ball_radii_m_[k] = static_cast<float>(std::hypot(0.5 * shape.length_m, thick_m));
+    capsules_[k] = CapsuleOf(kinematics_.limb(limb), shape);
   }
   const auto across = static_cast<float>(config_.across_m);
   const auto reach = static_cast<float>(reach_m);
   scores_.assign(count, reach / across);
   winners_.assign(count, -1);
-  for (const PointBlock& block : points.blocks) {
-    const RayScores scores{scores_.data() + block.first, winners_.data() + block.first};
-    for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-      const float apart = (ball_centres_m_[k] - block.centre_m).norm();
-      if (apart > ball_radii_m_[k] + block.radius_m + reach) continue;
-      ScoreLimb(surfaces_[k], static_cast<int>(k), across, Slice(points, block.first, block.count),
-                scores);
-    }
+  for (const PointBlock& block : points.blocks) AssignBlock(points, block, reach);
+}
+
+// From the nearest limb on: those come no further that are too far to explain any point better.
+void BodyFitter::AssignBlock(const BodyPoints& points, const PointBlock& block, float reach_m) {
+  near_.clear();
+  for (std::size_t k = 0; k < capsules_.size(); ++k) {
+    const float gap_m = capsules_[k].Distance_m(block.centre_m) - block.radius_m;
+    if (gap_m <= reach_m) near_.emplace_back(gap_m, static_cast<int>(k));
+  }
+  std::sort(near_.begin(), near_.end());
+  const auto across = static_cast<float>(config_.across_m);
+  const Eigen::Map<const Eigen::ArrayXf> sigmas(points.sigma_z_m.data() + block.first, block.count);
+  const Eigen::Map<const Eigen::ArrayXf> scores(scores_.data() + block.first, block.count);
+  const float unit_m = std::max(across, sigmas.maxCoeff());
+  for (const auto& [gap_m, limb] : near_) {
+    if (gap_m > scores.maxCoeff() * unit_m) break;
+    ScoreLimb(surfaces_[static_cast<std::size_t>(limb)], limb, across,
+              Slice(points, block.first, block.count),
+              {scores_.data() + block.first, winners_.data() + block.first});
   }
 }
 
@@ -193,10 +210,11 @@ void BodyFitter::AddPoints(const BodyPoints& points, double scale_m) {
   for (auto* values : {&sorted_.x_m, &sorted_.y_m, &sorted_.z_m, &sorted_.sigma_z_m}) {
     values->resize(total);
   }
-  std::vector<int> next(first_of_limb_.begin(), first_of_limb_.end() - 1);
+  std::copy(first_of_limb_.begin(), first_of_limb_.end() - 1, next_of_limb_.begin());
   for (std::size_t i = 0; i < winners_.size(); ++i) {
     if (winners_[i] < 0) continue;
-    const auto at = static_cast<std::size_t>(next[static_cast<std::size_t>(winners_[i])]++);
+    const auto at =
+        static_cast<std::size_t>(next_of_limb_[static_cast<std::size_t>(winners_[i])]++);
     sorted_.x_m[at] = points.x_m[i];
     sorted_.y_m[at] = points.y_m[i];
     sorted_.z_m[at] = points.z_m[i];
@@ -297,15 +315,16 @@ void BodyFitter::AddFloor(const std::optional<body_model::Floor>& floor) {
 
 void BodyFitter::Step(body_model::BodyPose& pose) {
   equations_.information.diagonal() *= 1.0 + kDamping;
-  Eigen::VectorXd step = equations_.information.ldlt().solve(equations_.pull);
-  const double largest = step.cwiseAbs().maxCoeff();
+  factors_.compute(equations_.information);
+  step_ = factors_.solve(equations_.pull);
+  const double largest = step_.cwiseAbs().maxCoeff();
   if (!std::isfinite(largest)) return;
-  if (largest > kLargestStep) step *= kLargestStep / largest;
-  pose.frame_from_root.translation_m += step.head<3>();
-  const Eigen::Matrix3d turn = body_model::RotationFrom(step.segment<3>(3));
+  if (largest > kLargestStep) step_ *= kLargestStep / largest;
+  pose.frame_from_root.translation_m += step_.head<3>();
+  const Eigen::Matrix3d turn = body_model::RotationFrom(step_.segment<3>(3));
   pose.frame_from_root.rotation =
       (Eigen::Quaterniond(turn) * pose.frame_from_root.rotation).normalized();
-  pose.angles_rad += step.tail(model_->angle_count());
+  pose.angles_rad += step_.tail(model_->angle_count());
 }
 
 // Limits are soft while the fit is on its way; nothing leaves the envelope.
@@ -320,8 +339,7 @@ void BodyFitter::Clamp(body_model::BodyPose& pose) const {
   }
 }
 
-FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
-  FitResult result;
+void BodyFitter::Judge(const BodyEvidence& evidence) {
   const BodyPoints& points = evidence.points();
   Assign(points, config_.last_reach_m);
   AddPoints(points, config_.judged_scale_m);
@@ -329,7 +347,8 @@ FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
   double cost = 0.0;
   for (int limb = 0; limb < model_->limb_count(); ++limb) {
     const auto k = static_cast<std::size_t>(limb);
-    LimbEvidence found;
+    LimbEvidence& found = result_.limbs[k];
+    found = {};
     found.inlier_count = first_of_limb_[k + 1] - first_of_limb_[k];
     if (found.inlier_count > 0) {
       found.residual_m = std::sqrt(static_cast<double>(sums_[k].values[29]) / found.inlier_count);
@@ -337,26 +356,8 @@ FitResult BodyFitter::Judge(const BodyEvidence& evidence) {
     found.view = outline_.Look(evidence, kinematics_, limb);
     explained += found.inlier_count;
     cost += static_cast<double>(sums_[k].values[27]);
-    result.limbs.push_back(found);
   }
-  double trunk_samples = 0.0, trunk_seen = 0.0;
-  for (const int limb : trunk_) {
-    const LimbView& view = result.limbs[static_cast<std::size_t>(limb)].view;
-    trunk_samples += view.samples - view.outside;
-    trunk_seen += view.seen;
-  }
-  result.trunk_seen = trunk_samples > 0.0 ? trunk_seen / trunk_samples : 0.0;
-  result.explained = points.count() > 0 ? static_cast<double>(explained) / points.count() : 0.0;
-  double free = 0.0, hidden = 0.0, samples = 0.0;
-  for (const LimbEvidence& limb : result.limbs) {
-    free += limb.view.free;
-    hidden += limb.view.hidden;
-    samples += limb.view.samples;
-  }
-  cost += points.count() - explained;
-  result.score = cost / std::max(1, points.count()) +
-                 (samples > 0.0 ? (2.0 * free + 0.3 * hidden) / samples : 2.0);
-  return result;
+  Score(trunk_, points.count(), explained, cost, result_);
 }
 
 }  // namespace deixis::pose_fitter

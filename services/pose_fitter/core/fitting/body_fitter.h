@@ -1,7 +1,9 @@
 #pragma once
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/body_model/body_model.h"
@@ -9,6 +11,7 @@
 #include "services/pose_fitter/core/fitting/body_evidence.h"
 #include "services/pose_fitter/core/fitting/limb_equations.h"
 #include "services/pose_fitter/core/fitting/outline_term.h"
+#include "services/pose_fitter/core/fitting/pose_method.h"
 
 namespace deixis::pose_fitter {
 
@@ -73,42 +76,34 @@ struct BodyFitterConfig {
   void Validate() const;  ///< Throws FaultsFound.
 };
 
-/// What one limb rests on.
-struct LimbEvidence {
-  int inlier_count = 0;
-  double residual_m = -1.0;  ///< RMS distance of its points along its normals; -1 = no points.
-  LimbView view;             ///< How the depth image sees its surface.
-};
+/// A rod of one radius with round ends that holds a limb, in the camera's frame.
+struct LimbCapsule {
+  Eigen::Vector3f begin_m = Eigen::Vector3f::Zero();
+  Eigen::Vector3f along_m = Eigen::Vector3f::UnitZ();  ///< To its other end.
+  float inverse_length2 = 1.0F;
+  float radius_m = 0.0F;
 
-struct FitResult {
-  double score = 0.0;      ///< Of the whole body: how badly points and free space agree with it.
-  double explained = 0.0;  ///< Share of the points that a limb explains.
-  double trunk_seen =
-      0.0;  ///< Share of the surface of trunk and head that is measured where it is.
-  std::vector<LimbEvidence> limbs;
+  float Distance_m(const Eigen::Vector3f& point_m) const;  ///< Negative inside.
 };
 
 /// Fits a body to the evidence of one depth image by damped Gauss-Newton steps over root and joint
-/// angles, which keep the parts connected by construction.
-class BodyFitter {
+/// angles, which keep the parts connected by construction. Takes its memory once per number of
+/// points.
+class BodyFitter final : public PoseMethod {
  public:
   BodyFitter(const BodyFitterConfig& config, const body_model::BodyModel& model);
 
-  /// Improves `pose`. `predicted` is where it is expected, `seconds` after it was known (nothing =
-  /// not known at all: no pull towards it).
-  FitResult Fit(const BodyEvidence& evidence, const std::optional<body_model::Floor>& floor,
-                const body_model::BodyPose& predicted, std::optional<double> seconds,
-                body_model::BodyPose& pose);
+  const FitResult& Fit(const BodyEvidence& evidence, const std::optional<body_model::Floor>& floor,
+                       const body_model::BodyPose& predicted, std::optional<double> seconds,
+                       body_model::BodyPose& pose) override;
 
-  const body_model::Kinematics& kinematics() const { return kinematics_; }
   body_model::Kinematics& kinematics() { return kinematics_; }
-  /// Of the last fit, in the order of body_model::PointJacobian.
-  const Eigen::MatrixXd& information() const { return equations_.information; }
-  /// Limb of each point of the last fit's evidence; -1 = none.
-  const std::vector<int>& winners() const { return winners_; }
+  const Eigen::MatrixXd& information() const override { return equations_.information; }
+  const std::vector<int>& winners() const override { return winners_; }
 
  private:
   void Assign(const BodyPoints& points, double reach_m);
+  void AssignBlock(const BodyPoints& points, const PointBlock& block, float reach_m);
   void AddPoints(const BodyPoints& points, double scale_m);
   void AddPriors(const body_model::BodyPose& pose, const body_model::BodyPose& predicted,
                  std::optional<double> seconds);
@@ -117,25 +112,29 @@ class BodyFitter {
   void AddFloor(const std::optional<body_model::Floor>& floor);
   void Step(body_model::BodyPose& pose);
   void Clamp(body_model::BodyPose& pose) const;
-  FitResult Judge(const BodyEvidence& evidence);
+  void Judge(const BodyEvidence& evidence);
 
   BodyFitterConfig config_;
   const body_model::BodyModel* model_;
   body_model::Kinematics kinematics_;
   body_model::BodyPose rest_;
   std::vector<JointFreedom> freedoms_;  ///< Of each limb.
-  std::vector<int> trunk_;              ///< Limbs that are there once: trunk and head.
+  std::vector<int> trunk_;
   OutlineTerm outline_;
   LimbEquations limb_equations_;
   BodyEquations equations_;
+  Eigen::LDLT<Eigen::MatrixXd> factors_;
+  Eigen::VectorXd step_;
   std::vector<LimbSurface> surfaces_;
-  std::vector<Eigen::Vector3f> ball_centres_m_;  ///< Around each limb.
-  std::vector<float> ball_radii_m_;
+  std::vector<LimbCapsule> capsules_;        ///< Around each limb.
+  std::vector<std::pair<float, int>> near_;  ///< Limbs near a block: how far, which.
   std::vector<float> scores_;
   std::vector<int> winners_;
   BodyPoints sorted_;
   std::vector<int> first_of_limb_;  ///< Among sorted_.
+  std::vector<int> next_of_limb_;   ///< Likewise, while sorting.
   std::vector<LimbSums> sums_;
+  FitResult result_;
 };
 
 }  // namespace deixis::pose_fitter

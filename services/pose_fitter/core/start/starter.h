@@ -42,7 +42,8 @@ struct StarterConfig {
 /// What a pose that turns the back to the camera has added to its score.
 double FacingPenalty(const StarterConfig& config, const body_model::BodyPose& pose);
 
-/// Finds poses of people of whom nothing but a region of the depth image is known.
+/// Finds poses of people of whom nothing but a region of the depth image is known, by articulated
+/// fits: others want a pose to start from.
 class Starter {
  public:
   Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence,
