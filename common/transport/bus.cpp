@@ -67,13 +67,14 @@ void RequireChannelName(const std::string& wire_channel) {
 struct Fault {
   std::string reason;
   std::string detail;
+  bool is_verdict = false;  ///< The message was judged; nothing failed.
 };
 
 Fault CurrentFault() {
   try {
     throw;
   } catch (const messages::Rejected& rejected) {
-    return {rejected.what(), rejected.what()};
+    return {rejected.what(), rejected.what(), /*is_verdict=*/true};
   } catch (const std::bad_alloc&) {
     return {"too_large", "out of memory"};
   } catch (const std::exception& error) {
@@ -220,7 +221,8 @@ struct Bus::Implementation {
       Hand(subscription, raw, accept);
     } catch (...) {
       const Fault fault = CurrentFault();
-      Drop(subscription, is_accepted ? "handler_failed" : fault.reason, fault.detail);
+      const bool has_failed = is_accepted && !fault.is_verdict;
+      Drop(subscription, has_failed ? "handler_failed" : fault.reason, fault.detail);
     }
     const double work_ms = MillisecondsSince(start);
     subscription.pace.NoteWork(work_ms);

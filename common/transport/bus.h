@@ -60,8 +60,9 @@ struct Percentiles {
 /// the messages' own, so that the same messages give the same bytes).
 ///
 /// Subscribers get plain structs. What does not decode, or makes no sense, is dropped and counted
-/// by reason. An exception that leaves a handler is counted ("handler_failed") and logged, and goes
-/// no further, since LCM would abort. Gaps in a publisher's sequence numbers are counted, and two
+/// by reason; so is what a handler refuses by throwing messages::Rejected. Any other exception that
+/// leaves a handler is counted ("handler_failed") and logged, and goes no further, since LCM would
+/// abort. Gaps in a publisher's sequence numbers are counted, and two
 /// publishers on one channel noticed (see publisher_sequences.h). What waits is bounded by the
 /// queues' capacities, and one Handle() by a fifth of a second, however much is sent.
 class Bus {

@@ -40,11 +40,13 @@ target_include_directories(deixis_flags INTERFACE "${CMAKE_SOURCE_DIR}")
 target_compile_definitions(deixis_flags INTERFACE DEIXIS_VERSION="${PROJECT_VERSION}")
 
 # Flags of files that hold hot kernels. They keep NaN and infinity meaningful, unlike -ffast-math,
-# and let the compiler vectorise; measured equal or faster than -ffast-math. Without threaded jumps,
-# which make control flow of choices between values.
+# and let the compiler vectorise; measured equal or faster than -ffast-math.
 set(DEIXIS_KERNEL_FLAGS
-  -O3 -fno-math-errno -fno-trapping-math -fno-signed-zeros -fassociative-math -freciprocal-math
-  -fno-thread-jumps)
+  -O3 -fno-math-errno -fno-trapping-math -fno-signed-zeros -fassociative-math -freciprocal-math)
+# gcc's threaded jumps make control flow of choices between values; clang knows no such flag.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  list(APPEND DEIXIS_KERNEL_FLAGS -fno-thread-jumps)
+endif()
 
 # Kernels in several versions, of which the processor's own runs: see common/kernels/kernel.h. Not
 # under the sanitisers, which are not ready yet when the version is chosen.

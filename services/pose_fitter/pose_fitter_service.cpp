@@ -8,7 +8,17 @@
 
 namespace deixis::pose_fitter {
 
+namespace {
+
 constexpr double kModelPeriod_s = 1.0;
+constexpr double kLatest_s = 1.0;  // An image older than the last by more tells of another clock.
+
+bool IsLate(Timestamp time, Timestamp last) {
+  const double ahead_s = SecondsBetween(last, time);
+  return ahead_s <= 0.0 && ahead_s >= -kLatest_s;
+}
+
+}  // namespace
 
 void PoseFitterServiceConfig::Validate() const {
   config::Faults faults;
@@ -38,8 +48,19 @@ transport::Health PoseFitterService::health() const {
   return {false, "waiting for the first " + config_.calibration_channel};
 }
 
+void PoseFitterService::RequireUsable(const images::StereoImage& stereo) const {
+  if (!calibration_) throw messages::Rejected("no_calibration");
+  const auto& rectified = calibration_->rectified;
+  if (!images::MayCoverSameView(stereo.depth_mm.size(),
+                                {rectified.width_px, rectified.height_px})) {
+    throw messages::Rejected("depth_of_other_view");
+  }
+  if (last_time_ && IsLate(stereo.left.time, *last_time_)) throw messages::Rejected("late_image");
+}
+
 void PoseFitterService::OnStereo(const images::StereoImage& stereo) {
-  if (!calibration_) return;
+  RequireUsable(stereo);
+  last_time_ = stereo.left.time;
   const auto& poses =
       fitter_.Track({stereo.left.time, calibration_->camera, stereo.depth_mm}, *calibration_);
   PublishModels(stereo.left.time);

@@ -29,21 +29,28 @@ struct PoseFitterServiceConfig {
   void Validate() const;
 };
 
-/// Answers every depth image with the poses of the people in it.
+/// Answers every depth image with the poses of the people in it. What cannot be used is dropped and
+/// counted: images before the calibration ("no_calibration"), of another view than it is for
+/// ("depth_of_other_view"), and late or repeated ones ("late_image"), which leave those who are
+/// followed as they are.
 class PoseFitterService {
  public:
+  /// Throws ConfigError when the body model cannot be had.
   PoseFitterService(const PoseFitterServiceConfig& config, transport::Bus& input,
                     transport::Bus& output);
+  /// Says what is waited for.
   transport::Health health() const;
 
  private:
   void OnStereo(const images::StereoImage& stereo);
+  void RequireUsable(const images::StereoImage& stereo) const;
   void PublishModels(Timestamp time);
 
   PoseFitterServiceConfig config_;
   transport::Bus& output_;
   PoseFitter fitter_;
   std::optional<geometry::StereoCalibration> calibration_;
+  std::optional<Timestamp> last_time_;  ///< Of the last image that was used.
   std::optional<Timestamp> models_time_;
   std::set<std::pair<int, std::int64_t>> known_models_;  ///< Person and model, since then.
 };

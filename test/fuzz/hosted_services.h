@@ -36,7 +36,8 @@ class HostedServices {
   void HandleAll();
   void SendGood(const std::string& name);
   std::map<std::string, std::int64_t> Published() const;
-  std::string FirstSilent();  ///< Channel on which good messages are not answered; "" = none.
+  /// Channel on which good messages, so much later, are not answered; "" = none.
+  std::string FirstSilent(std::int64_t step_us);
 
   test::TemporaryFolder folder_;
   transport::Bus bus_;

@@ -94,6 +94,16 @@ TEST_F(BusTest, SurvivesAnExceptionInAHandler) {
   EXPECT_EQ(Received(bus_, "HANDS").drops.at("handler_failed"), 1);
 }
 
+TEST_F(BusTest, CountsWhatAHandlerRefusesByItsReason) {
+  bus_.Subscribe<Hands>("HANDS", Delivery::kEvery,
+                        [](const Hands&) { throw messages::Rejected("late_hands"); });
+  bus_.Publish("HANDS", At(1));
+  bus_.Publish("HANDS", At(2));
+  test::HandleAll(bus_);
+  EXPECT_EQ(Received(bus_, "HANDS").drops.at("late_hands"), 2);
+  EXPECT_EQ(Received(bus_, "HANDS").drops.count("handler_failed"), 0U);
+}
+
 TEST_F(BusTest, SurvivesAnExceptionThatIsNoStandardOne) {
   int calls = 0;
   bus_.Subscribe<Hands>("HANDS", Delivery::kEvery, [&](const Hands&) {

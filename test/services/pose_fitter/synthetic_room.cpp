@@ -54,7 +54,7 @@ double Hit(const Ray& ray, const Pillar& pillar) {
   return top > 0.0 && is_inside && ray.along.z() < 0.0 ? top : kNone;
 }
 
-Eigen::Matrix3d CameraFromRoom(const Room& room) {
+Eigen::Matrix3d RotationOf(const Room& room) {
   Eigen::Matrix3d level;
   level << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   const Eigen::AngleAxisd pitch(room.pitch_rad, Eigen::Vector3d::UnitX());
@@ -125,7 +125,12 @@ void Room::AddTable(double x_m, double y_m, double half_x_m, double half_y_m, do
   }
 }
 
-body_model::Floor Room::Floor() const { return {CameraFromRoom(*this).col(2), camera_height_m}; }
+body_model::Floor Room::Floor() const { return {RotationOf(*this).col(2), camera_height_m}; }
+
+Eigen::Isometry3d Room::CameraFromRoom() const {
+  const Eigen::Isometry3d camera_from_upright(RotationOf(*this));
+  return camera_from_upright * Eigen::Translation3d(0.0, 0.0, -camera_height_m);
+}
 
 Picture Look(const Room& room, int width_px, double noise_per_square_m, std::uint64_t seed) {
   Picture picture;
@@ -138,7 +143,7 @@ Picture Look(const Room& room, int width_px, double noise_per_square_m, std::uin
                     {0.001, noise_per_square_m}};
   picture.depth_mm = cv::Mat(height_px, width_px, CV_16UC1, cv::Scalar(0));
   picture.owner = cv::Mat(height_px, width_px, CV_8UC1, cv::Scalar(0));
-  const Eigen::Matrix3d room_from_camera = CameraFromRoom(room).transpose();
+  const Eigen::Matrix3d room_from_camera = RotationOf(room).transpose();
   const filtering::CounterRandom random(seed, 2);
   std::uint64_t pixel = 0;
   for (int v = 0; v < height_px; ++v) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <variant>
@@ -45,6 +46,7 @@ struct Room {
   void AddTable(double x_m, double y_m, double half_x_m, double half_y_m, double height_m);
 
   body_model::Floor Floor() const;  ///< In the camera's optical frame.
+  Eigen::Isometry3d CameraFromRoom() const;
 };
 
 /// What a depth camera sees of it.

@@ -30,6 +30,8 @@ void FollowConfig::Validate() const {
   faults.Require(doubtful_score > 0.0, "doubtful_score", "must be positive");
   faults.Require(proven_score > 0.0, "proven_score", "must be positive");
   faults.Require(lost_score > 0.0, "lost_score", "must be positive");
+  faults.Require(arms_s >= 0.0, "arms_s", "must not be negative");
+  faults.Require(arms_better >= 0.0, "arms_better", "must not be negative");
   faults.Require(least_points >= 10, "least_points", "must be at least 10");
   faults.Require(position_sigma_m >= 0.0, "position_sigma_m", "must not be negative");
   faults.Require(covariance_factor > 0.0, "covariance_factor", "must be positive");
@@ -79,6 +81,7 @@ void FollowedPerson::Follow(const DepthView& view, const std::optional<body_mode
   }
   Remember(seconds);
   Choose();
+  TryArms(view, floor, taken, seconds);
 }
 
 void FollowedPerson::Fit(const std::optional<body_model::Floor>& floor, const BodyPose& predicted,
@@ -90,6 +93,51 @@ void FollowedPerson::Fit(const std::optional<body_model::Floor>& floor, const Bo
   const double score = hypothesis.result.score + FacingPenalty(settings_.start, pose);
   const double share = std::min(1.0, seconds / (0.5 * settings_.follow.settle_s));
   hypothesis.mean_score += share * (score - hypothesis.mean_score);
+}
+
+// An arm that is not where it is seen, or is seen through.
+bool FollowedPerson::IsArmDoubtful(ArmSide side) const {
+  const std::string name = side == ArmSide::kRight ? "right_" : "left_";
+  for (const char* part : {"lower_arm", "hand"}) {
+    const auto limb = model_->Find(name + part);
+    if (!limb) continue;
+    const LimbEvidence& evidence = best().result.limbs[static_cast<std::size_t>(*limb)];
+    const LimbView& view = evidence.view;
+    if (evidence.inlier_count < kMeasuredPoints || 4 * view.free > view.samples) return true;
+  }
+  return false;
+}
+
+// All places are judged by the same pixels: those around any of them.
+void FollowedPerson::TryArms(const DepthView& view, const std::optional<body_model::Floor>& floor,
+                             const std::vector<std::uint8_t>& taken, double seconds) {
+  since_arms_s_ += seconds;
+  if (since_arms_s_ < settings_.follow.arms_s || hypotheses_.size() > 1) return;
+  const ArmSide side = next_arm_;
+  next_arm_ = side == ArmSide::kRight ? ArmSide::kLeft : ArmSide::kRight;
+  if (!IsArmDoubtful(side)) return;
+  since_arms_s_ = 0.0;
+  std::vector<BodyPose> places = ArmPoses(*model_, best().pose, side);
+  places.push_back(best().pose);
+  std::vector<const BodyPose*> poses;
+  for (const BodyPose& place : places) poses.push_back(&place);
+  BodyEvidence around(settings_.evidence);
+  around.Gather(view, fitter_->kinematics(), poses, floor, {&taken}, settings_.evidence.gate_m);
+  std::optional<Hypothesis> found;
+  double score_now = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Hypothesis other = best();
+    other.result = fitter_->Fit(around, floor, places[i], std::nullopt, other.pose = places[i]);
+    other.information = fitter_->information();
+    if (i + 1 == places.size()) {
+      score_now = other.result.score;
+    } else if (!found || other.result.score < found->result.score) {
+      found = std::move(other);
+    }
+  }
+  if (!found || found->result.score > score_now - settings_.follow.arms_better) return;
+  found->rates_rad_per_s.setZero();
+  hypotheses_.front() = std::move(*found);
 }
 
 // With time, all but the best go.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/body_model/tracked_body.h"
+#include "services/pose_fitter/core/bodies/arm_poses.h"
 #include "services/pose_fitter/core/bodies/hypothesis.h"
 #include "services/pose_fitter/core/bodies/person_body.h"
 #include "services/pose_fitter/core/fitting/body_evidence.h"
@@ -18,6 +19,8 @@ struct FollowConfig {
   double settle_s = 0.5;            ///< Time that rival poses have to prove themselves.
   double doubtful_score = 0.4;      ///< From here on other poses of the person are tried.
   double proven_score = 0.35;       ///< Who was once explained so well is somebody,
+  double arms_s = 0.2;              ///< Between two tries of other places of the arms.
+  double arms_better = 0.03;        ///< By which another place must be better.
   double lost_score = 0.8;          ///< and only gone from here on; others by `worst_score`.
   int least_points = 50;            ///< With fewer a person is not seen.
   double position_sigma_m = 0.012;  ///< Spread of joint places that a fit does not know of.
@@ -34,6 +37,8 @@ struct FollowConfig {
     v("settle_s", settle_s);
     v("doubtful_score", doubtful_score);
     v("proven_score", proven_score);
+    v("arms_s", arms_s);
+    v("arms_better", arms_better);
     v("lost_score", lost_score);
     v("least_points", least_points);
     v("position_sigma_m", position_sigma_m);
@@ -84,6 +89,9 @@ class FollowedPerson {
  private:
   void Fit(const std::optional<body_model::Floor>& floor, const body_model::BodyPose& predicted,
            double seconds, Hypothesis& hypothesis);
+  void TryArms(const DepthView& view, const std::optional<body_model::Floor>& floor,
+               const std::vector<std::uint8_t>& taken, double seconds);
+  bool IsArmDoubtful(ArmSide side) const;
   void Choose();
   void Remember(double seconds);
   void LearnShape();
@@ -100,6 +108,8 @@ class FollowedPerson {
   std::unique_ptr<PoseMethod> fitter_;
   BodyEvidence evidence_;
   std::vector<Hypothesis> hypotheses_;  ///< The best one first.
+  double since_arms_s_ = 0.0;
+  ArmSide next_arm_ = ArmSide::kRight;
   bool is_proven_ = false;
   double unseen_s_ = 0.0;
   std::vector<ShapeFrame> frames_;

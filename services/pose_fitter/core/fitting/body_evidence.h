@@ -15,7 +15,8 @@ namespace deixis::pose_fitter {
 struct BodyEvidenceConfig {
   double gate_m = 0.12;         ///< Pixels this near to the predicted body may belong to it.
   double above_floor_m = 0.04;  ///< Lower ones are the floor's.
-  int points = 2000;      ///< That the fit uses at most, spread evenly over the body's pixels.
+  int points =
+      2000;  ///< That the fit uses, spread over the body's pixels; up to 2.3 times as many.
   double behind_m = 0.3;  ///< Background is what lies no further than this before the root.
 
   template <typename Visitor>
