@@ -122,7 +122,7 @@ void FollowedPerson::TryArms(const DepthView& view, const std::optional<body_mod
   std::vector<const BodyPose*> poses;
   for (const BodyPose& place : places) poses.push_back(&place);
   BodyEvidence around(settings_.evidence);
-  around.Gather(view, fitter_->kinematics(), poses, floor, {&taken}, settings_.evidence.gate_m);
+  around.Gather(view, *kinematics_, poses, floor, {&taken}, settings_.evidence.gate_m);
   std::optional<Hypothesis> found;
   double score_now = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
