@@ -95,7 +95,6 @@ void BodyFitterConfig::Validate() const {
   const auto positive = [&faults](double value, const char* key) {
     faults.Require(value > 0.0, key, "must be positive");
   };
-  faults.Require(first_points >= 100, "first_points", "must be at least 100");
   positive(first_scale_m, "first_scale_m");
   positive(last_scale_m, "last_scale_m");
   positive(first_reach_m, "first_reach_m");
@@ -133,7 +132,9 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
                                  const std::optional<body_model::Floor>& floor,
                                  const body_model::BodyPose& predicted,
                                  std::optional<double> seconds, body_model::BodyPose& pose) {
-  Thin(evidence.points());
+  const BodyPoints& points = evidence.points();
+  const double weight =
+      config_.point_weight * std::min(1.0, config_.counted_points / std::max(1, points.count()));
   for (int round = 0; round < config_.iterations; ++round) {
     const double share =
         config_.iterations > 1 ? static_cast<double>(round) / (config_.iterations - 1) : 1.0;
@@ -141,9 +142,6 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
         config_.first_scale_m * std::pow(config_.last_scale_m / config_.first_scale_m, share);
     const double reach_m =
         config_.first_reach_m * std::pow(config_.last_reach_m / config_.first_reach_m, share);
-    const BodyPoints& points = 2 * round < config_.iterations ? thin_ : evidence.points();
-    const double weight =
-        config_.point_weight * std::min(1.0, config_.counted_points / std::max(1, points.count()));
     kinematics_.Update(pose);
     equations_.SetZero(6 + model_->angle_count());
     limb_equations_.SetZero(kinematics_.proximal_m(0));
@@ -164,16 +162,6 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
   kinematics_.Update(pose);
   Judge(evidence);
   return result_;
-}
-
-void BodyFitter::Thin(const BodyPoints& points) {
-  thin_.Clear();
-  const int step = std::max(1, points.count() / config_.first_points);
-  for (int i = 0; i < points.count(); i += step) {
-    const auto k = static_cast<std::size_t>(i);
-    thin_.Add({points.x_m[k], points.y_m[k], points.z_m[k]}, points.sigma_z_m[k]);
-  }
-  thin_.EndBlock();
 }
 
 void BodyFitter::Assign(const BodyPoints& points, double reach_m) {

@@ -32,7 +32,6 @@ struct JointFreedom {
 
 struct BodyFitterConfig {
   int iterations = 12;            ///< Of each fit.
-  int first_points = 2000;        ///< The first half of them takes about so many points at most.
   double first_scale_m = 0.10;    ///< Of the robust weights, in the first round ...
   double last_scale_m = 0.03;     ///< ... and in the last.
   double judged_scale_m = 0.02;   ///< By which a fit is judged against others.
@@ -57,7 +56,6 @@ struct BodyFitterConfig {
   template <typename Visitor>
   void Visit(Visitor& v) {
     v("iterations", iterations);
-    v("first_points", first_points);
     v("first_scale_m", first_scale_m);
     v("last_scale_m", last_scale_m);
     v("judged_scale_m", judged_scale_m);
@@ -104,7 +102,6 @@ class BodyFitter final : public PoseMethod {
   const std::vector<int>& winners() const override { return winners_; }
 
  private:
-  void Thin(const BodyPoints& points);
   void Assign(const BodyPoints& points, double reach_m);
   void AssignBlock(const BodyPoints& points, const PointBlock& block, float reach_m);
   void AddPoints(const BodyPoints& points, double scale_m);
@@ -133,7 +130,6 @@ class BodyFitter final : public PoseMethod {
   std::vector<std::pair<float, int>> near_;  ///< Limbs near a block: how far, which.
   std::vector<float> scores_;
   std::vector<int> winners_;
-  BodyPoints thin_;
   BodyPoints sorted_;
   std::vector<int> first_of_limb_;  ///< Among sorted_.
   std::vector<int> next_of_limb_;   ///< Likewise, while sorting.
