@@ -47,9 +47,7 @@ struct Root {
 }
 
 /// Rays through side or discs: (U0 + t U1)^2 + k^2 (V0 + t V1)^2 = (A0 + t A1)^2 with k = a / b at
-/// the height of the meeting, which some rounds find: two to within what tells limbs apart, three
-/// to within what can be measured.
-template <int rounds>
+/// the height of the meeting, which two rounds find.
 [[gnu::always_inline]] inline Meeting Meet(const LimbSurface& limb, float x, float y, float z) {
   const float* r = limb.camera_from_limb;
   const float* o = limb.camera_in_limb_m;
@@ -73,7 +71,7 @@ template <int rounds>
   Root root{t, 0.0F};
   root = FrontRoot(limb, taper, root.t);
   root = FrontRoot(limb, taper, root.t);
-  if (rounds == 3) root = FrontRoot(limb, taper, root.t);
+  root = FrontRoot(limb, taper, root.t);
   t = root.t;
   // The disc that faces the camera, when the side is met beyond it.
   const float height = o[2] + t * m.dz;
@@ -136,7 +134,7 @@ template <int rounds>
                                          int* __restrict winner) {
   const float inverse_across = 1.0F / across_m;
   for (int i = 0; i < count; ++i) {
-    const Meeting m = Meet<2>(limb, x[i], y[i], z[i]);
+    const Meeting m = Meet(limb, x[i], y[i], z[i]);
     const float along = std::abs(z[i] - m.depth_m) / sigma[i];
     const float beside = m.distance_m * inverse_across;
     const float mine = m.meets > 0.5F ? along : beside;
@@ -158,7 +156,7 @@ template <int rounds>
         s11 = 0, s12 = 0, s13 = 0, s14 = 0, s15 = 0, s16 = 0, s17 = 0, s18 = 0, s19 = 0, s20 = 0,
         s21 = 0, s22 = 0, s23 = 0, s24 = 0, s25 = 0, s26 = 0, s27 = 0, s28 = 0, s29 = 0;
   for (int i = 0; i < count; ++i) {
-    const Meeting m = Meet<3>(limb, x[i], y[i], z[i]);
+    const Meeting m = Meet(limb, x[i], y[i], z[i]);
     const bool met = m.meets > 0.5F;
     const float nx = r[0] * m.nx + r[1] * m.ny + r[2] * m.nz;
     const float ny = r[3] * m.nx + r[4] * m.ny + r[5] * m.nz;

@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(All, PoseMethodTest,
                            return method.param == FitMethod::kLimbIcp ? "LimbIcp" : "Articulated";
                          });
 
-TEST(BodyFitter, TakesNoMemoryPerImage) {
+TEST(PoseMethodMemory, OfTheArticulatedFitStaysTheSame) {
   Scene scene("clothed_body", 64, 300);
   BodyFitterConfig config;
   config.iterations = 2;
