@@ -1,6 +1,7 @@
 #include "common/body_model/joint_angles.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "common/body_model/kinematics.h"
@@ -95,6 +96,17 @@ void OrientLimb(const BodyModel& model, int limb, const Matrix3d& root_from_limb
   const Limb& moved = model.limbs()[static_cast<std::size_t>(limb)];
   pose.angles_rad.segment(model.first_angle(limb), static_cast<Eigen::Index>(moved.dofs.size())) =
       JointAngles(moved, RootFromParent(model, moved.parent, pose).transpose() * root_from_limb);
+}
+
+void ClampToEnvelope(const BodyModel& model, BodyPose& pose) {
+  int angle = 0;
+  for (const Limb& limb : model.limbs()) {
+    for (const DegreeOfFreedom& dof : limb.dofs) {
+      pose.angles_rad[angle] =
+          std::clamp(pose.angles_rad[angle], dof.angle_min_rad, dof.angle_max_rad);
+      ++angle;
+    }
+  }
 }
 
 BodyPose Standing(const BodyModel& model) {

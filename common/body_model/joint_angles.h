@@ -30,6 +30,9 @@ void PointLimb(const BodyModel& model, int limb, const Eigen::Vector3d& directio
 void OrientLimb(const BodyModel& model, int limb, const Eigen::Matrix3d& root_from_limb,
                 BodyPose& pose);
 
+/// Brings every angle that is outside the envelope of its joint to the nearer bound.
+void ClampToEnvelope(const BodyModel& model, BodyPose& pose);
+
 /// The neutral-zero stance: upright, arms and legs hanging, their fronts forward.
 BodyPose Standing(const BodyModel& model);
 

@@ -68,17 +68,6 @@ void Bend(const BodyModel& model, const std::string& limb, double angle_rad, Bod
   }
 }
 
-void Clamp(const BodyModel& model, BodyPose& pose) {
-  int angle = 0;
-  for (const auto& limb : model.limbs()) {
-    for (const auto& dof : limb.dofs) {
-      pose.angles_rad[angle] =
-          std::clamp(pose.angles_rad[angle], dof.angle_min_rad, dof.angle_max_rad);
-      ++angle;
-    }
-  }
-}
-
 }  // namespace
 
 BodyMaker MakerOf(const std::string& plan) {
@@ -132,7 +121,7 @@ BodyPose Disturbed(const BodyModel& model, const BodyPose& pose, double mean_err
     off.frame_from_root.rotation = Eigen::Quaterniond(body_model::RotationFrom(share * turn_rad)) *
                                    pose.frame_from_root.rotation;
     off.angles_rad += share * angles_rad;
-    Clamp(model, off);
+    body_model::ClampToEnvelope(model, off);
     return off;
   };
   double low = 0.0, high = 1.0;

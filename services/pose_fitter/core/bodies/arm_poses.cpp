@@ -54,17 +54,6 @@ void Point(const BodyModel& model, int upper, int lower, const Vector3d& upper_d
   body_model::PointLimb(model, lower, lower_direction, pose);
 }
 
-void Keep(const BodyModel& model, BodyPose& pose) {
-  int angle = 0;
-  for (const auto& limb : model.limbs()) {
-    for (const auto& dof : limb.dofs) {
-      pose.angles_rad[angle] =
-          std::clamp(pose.angles_rad[angle], dof.angle_min_rad, dof.angle_max_rad);
-      ++angle;
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<BodyPose> ArmPoses(const BodyModel& model, const BodyPose& pose, ArmSide side) {
@@ -84,12 +73,12 @@ std::vector<BodyPose> ArmPoses(const BodyModel& model, const BodyPose& pose, Arm
   for (const ArmDirections& place : Places()) {
     BodyPose& other = poses.emplace_back(pose);
     Point(model, *upper, *lower, direction(place.upper), direction(place.lower), other);
-    Keep(model, other);
+    body_model::ClampToEnvelope(model, other);
   }
   for (const Vector3d& place : ForearmPlaces()) {
     BodyPose& other = poses.emplace_back(pose);
     Point(model, *upper, *lower, kinematics.limb(*upper).linear().col(2), direction(place), other);
-    Keep(model, other);
+    body_model::ClampToEnvelope(model, other);
   }
   return poses;
 }

@@ -158,7 +158,8 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
     AddUpright(pose, floor);
     Step(pose);
   }
-  Clamp(pose);
+  // Limits are soft while the fit is on its way; nothing leaves the envelope.
+  body_model::ClampToEnvelope(*model_, pose);
   kinematics_.Update(pose);
   Judge(evidence);
   return result_;
@@ -325,18 +326,6 @@ void BodyFitter::Step(body_model::BodyPose& pose) {
   pose.frame_from_root.rotation =
       (Eigen::Quaterniond(turn) * pose.frame_from_root.rotation).normalized();
   pose.angles_rad += step_.tail(model_->angle_count());
-}
-
-// Limits are soft while the fit is on its way; nothing leaves the envelope.
-void BodyFitter::Clamp(body_model::BodyPose& pose) const {
-  int angle = 0;
-  for (const auto& limb : model_->limbs()) {
-    for (const auto& dof : limb.dofs) {
-      pose.angles_rad[angle] =
-          std::clamp(pose.angles_rad[angle], dof.angle_min_rad, dof.angle_max_rad);
-      ++angle;
-    }
-  }
 }
 
 void BodyFitter::Judge(const BodyEvidence& evidence) {

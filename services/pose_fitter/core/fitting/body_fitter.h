@@ -111,7 +111,6 @@ class BodyFitter final : public PoseMethod {
   void AddUpright(const body_model::BodyPose& pose, const std::optional<body_model::Floor>& floor);
   void AddFloor(const std::optional<body_model::Floor>& floor);
   void Step(body_model::BodyPose& pose);
-  void Clamp(body_model::BodyPose& pose) const;
   void Judge(const BodyEvidence& evidence);
 
   BodyFitterConfig config_;
