@@ -145,7 +145,7 @@ void PoseFitter::Meet(const PersonRegion& region) {
   people_.push_back(std::make_unique<FollowedPerson>(
       FollowSettings{config_.follow,
                      config_.start,
-                     config_.arms,
+                     config_.limbs,
                      config_.evidence,
                      {config_.method, config_.fit, config_.limb_icp},
                      config_.shape},

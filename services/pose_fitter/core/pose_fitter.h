@@ -37,7 +37,7 @@ struct PoseFitterConfig {
   StarterConfig start;
   SeenPartsConfig cues;
   FollowConfig follow;
-  ArmSearchConfig arms;
+  LimbSearchConfig limbs;
   BodyEvidenceConfig evidence;
   BodyFitterConfig fit;    ///< By method articulated.
   LimbIcpConfig limb_icp;  ///< By method limb_icp.
@@ -60,7 +60,7 @@ struct PoseFitterConfig {
     v("start", start);
     v("cues", cues);
     v("follow", follow);
-    v("arms", arms);
+    v("limbs", limbs);
     v("evidence", evidence);
     v("fit", fit);
     v("limb_icp", limb_icp);

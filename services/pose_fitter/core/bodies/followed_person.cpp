@@ -14,11 +14,19 @@ using body_model::LimbState;
 
 constexpr int kLessons = 4;           // The last lesson has so many times the first one's images.
 constexpr double kLimbsOwn_m = 0.05;  // What is so near to a limb is its own.
-constexpr int kMeasuredPoints = 8;    // A limb with as many rests on its own data.
+// A limb rests on its own data that has so many points, so near on average, and of whose surface
+// that faces the camera so much is seen.
+constexpr int kMeasuredPoints = 8;
+constexpr double kMeasuredWithin_m = 0.035;
+constexpr double kMeasuredShare = 0.35;
+constexpr double kDoubted = 0.6;  // Share of a limb that counts as unseen when it is not measured.
 
 LimbState StateOf(const LimbEvidence& evidence) {
-  if (evidence.inlier_count >= kMeasuredPoints) return LimbState::kMeasured;
   const LimbView& view = evidence.view;
+  if (evidence.inlier_count >= kMeasuredPoints && evidence.residual_m < kMeasuredWithin_m &&
+      view.seen >= kMeasuredShare * view.samples) {
+    return LimbState::kMeasured;
+  }
   if (2 * (view.hidden + view.outside) > view.samples) return LimbState::kHidden;
   return 2 * view.free > view.samples ? LimbState::kLost : LimbState::kInferred;
 }
@@ -34,6 +42,7 @@ void FollowConfig::Validate() const {
   faults.Require(lost_score > 0.0, "lost_score", "must be positive");
   faults.Require(least_points >= 10, "least_points", "must be at least 10");
   faults.Require(position_sigma_m >= 0.0, "position_sigma_m", "must not be negative");
+  faults.Require(unseen_rad >= 0.0, "unseen_rad", "must not be negative");
   faults.Require(covariance_factor > 0.0, "covariance_factor", "must be positive");
   faults.Require(shape_frames >= 0 && shape_frames <= 1000, "shape_frames", "must be 0..1000");
   faults.Require(shape_period_s >= 0.0, "shape_period_s", "must not be negative");
@@ -54,12 +63,12 @@ FollowedPerson::FollowedPerson(const FollowSettings& settings, const PersonBody&
       hypotheses_(std::move(starts)),
       next_lesson_(settings.follow.shape_frames) {
   Choose();
-  MakeArmSearch();
+  MakeLimbSearch();
 }
 
-void FollowedPerson::MakeArmSearch() {
-  arms_ = std::make_unique<ArmSearch>(settings_.arms, settings_.evidence, settings_.fit.articulated,
-                                      *model_);
+void FollowedPerson::MakeLimbSearch() {
+  search_ = std::make_unique<LimbSearch>(settings_.limbs, settings_.evidence,
+                                         settings_.fit.articulated, *model_);
 }
 
 void FollowedPerson::Look(const DepthView& view, const std::optional<body_model::Floor>& floor) {
@@ -97,7 +106,7 @@ void FollowedPerson::Follow(const DepthView& view, const std::optional<body_mode
   Remember(seconds);
   Choose();
   if (settings_.fit.method != FitMethod::kArticulated) return;
-  auto better = arms_->Find(evidence_, floor, context, seconds, best());
+  auto better = search_->Find(evidence_, floor, context, seconds, best());
   if (better) hypotheses_.front() = std::move(*better);
 }
 
@@ -108,7 +117,7 @@ void FollowedPerson::Fit(const std::optional<body_model::Floor>& floor, const Bo
   hypothesis.information = fitter_->information();
   Move(pose, seconds, hypothesis);
   const double score = hypothesis.result.score + FacingPenalty(settings_.start, pose) +
-                       settings_.arms.cue_share * hypothesis.result.cue_cost;
+                       settings_.limbs.cue_share * hypothesis.result.cue_cost;
   const double share = std::min(1.0, seconds / (0.5 * settings_.follow.settle_s));
   hypothesis.mean_score += share * (score - hypothesis.mean_score);
 }
@@ -179,8 +188,23 @@ void FollowedPerson::Wear(const CalibratedShape& shape) {
   model_ = std::make_unique<body_model::BodyModel>(shape.model);
   kinematics_ = std::make_unique<body_model::Kinematics>(*model_);
   fitter_ = MakePoseMethod(settings_.fit, *model_);
-  MakeArmSearch();
+  MakeLimbSearch();
   hypotheses_.front().pose = shape.poses.back();
+}
+
+// A fit believes in the few points of a limb that is mostly out of sight, which may be another's.
+void FollowedPerson::AddUnseen(Eigen::MatrixXd& covariance) const {
+  for (int limb = 1; limb < model_->limb_count(); ++limb) {
+    const LimbEvidence& evidence = best().result.limbs[static_cast<std::size_t>(limb)];
+    const LimbView& view = evidence.view;
+    double unseen = view.samples > 0 ? 1.0 - static_cast<double>(view.seen) / view.samples : 1.0;
+    if (StateOf(evidence) != LimbState::kMeasured) unseen = std::max(unseen, kDoubted);
+    const double sigma_rad = settings_.follow.unseen_rad * unseen;
+    const auto count =
+        static_cast<Eigen::Index>(model_->limbs()[static_cast<std::size_t>(limb)].dofs.size());
+    covariance.diagonal().segment(6 + model_->first_angle(limb), count).array() +=
+        sigma_rad * sigma_rad;
+  }
 }
 
 Eigen::MatrixXd FollowedPerson::CovarianceOf(const Eigen::MatrixXd& information) const {
@@ -188,6 +212,7 @@ Eigen::MatrixXd FollowedPerson::CovarianceOf(const Eigen::MatrixXd& information)
   const auto size = information.rows();
   Eigen::MatrixXd covariance = settings_.follow.covariance_factor *
                                information.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+  AddUnseen(covariance);
   const double variance_m2 = settings_.follow.position_sigma_m * settings_.follow.position_sigma_m;
   covariance.diagonal().head<3>().array() += variance_m2;
   return covariance;

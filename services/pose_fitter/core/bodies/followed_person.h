@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/body_model/tracked_body.h"
-#include "services/pose_fitter/core/bodies/arm_search.h"
 #include "services/pose_fitter/core/bodies/hypothesis.h"
+#include "services/pose_fitter/core/bodies/limb_search.h"
 #include "services/pose_fitter/core/bodies/person_body.h"
 #include "services/pose_fitter/core/fitting/body_evidence.h"
 #include "services/pose_fitter/core/fitting/method_choice.h"
@@ -22,6 +22,7 @@ struct FollowConfig {
   double lost_score = 0.8;          ///< and only gone from here on; others by `worst_score`.
   int least_points = 50;            ///< With fewer a person is not seen.
   double position_sigma_m = 0.012;  ///< Spread of joint places that a fit does not know of.
+  double unseen_rad = 0.35;         ///< Spread of the angles of a limb that is not seen at all.
   double covariance_factor = 1.0;   ///< Times the covariance that a fit believes in.
   int shape_frames = 20;            ///< Well seen images that a person's shape is learned from;
                                     ///< again from twice and from four times as many; 0 = never.
@@ -38,6 +39,7 @@ struct FollowConfig {
     v("lost_score", lost_score);
     v("least_points", least_points);
     v("position_sigma_m", position_sigma_m);
+    v("unseen_rad", unseen_rad);
     v("covariance_factor", covariance_factor);
     v("shape_frames", shape_frames);
     v("shape_period_s", shape_period_s);
@@ -51,7 +53,7 @@ struct FollowConfig {
 struct FollowSettings {
   FollowConfig follow;
   StarterConfig start;
-  ArmSearchConfig arms;
+  LimbSearchConfig limbs;
   BodyEvidenceConfig evidence;
   FitSettings fit;
   ShapeConfig shape;
@@ -92,11 +94,12 @@ class FollowedPerson {
  private:
   void Fit(const std::optional<body_model::Floor>& floor, const body_model::BodyPose& predicted,
            double seconds, Hypothesis& hypothesis);
-  void MakeArmSearch();
+  void MakeLimbSearch();
   void Choose();
   void Remember(double seconds);
   void LearnShape();
   void Wear(const CalibratedShape& shape);
+  void AddUnseen(Eigen::MatrixXd& covariance) const;
   /// 0 x 0 = not known.
   Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& information) const;
 
@@ -109,7 +112,7 @@ class FollowedPerson {
   std::unique_ptr<PoseMethod> fitter_;
   BodyEvidence evidence_;
   std::vector<Hypothesis> hypotheses_;  ///< The best one first.
-  std::unique_ptr<ArmSearch> arms_;
+  std::unique_ptr<LimbSearch> search_;
   bool is_proven_ = false;
   double unseen_s_ = 0.0;
   std::vector<ShapeFrame> frames_;

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <opencv2/imgproc.hpp>
-#include <string>
 
 #include "common/config/config.h"
 
@@ -14,34 +12,19 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kMost = 3;
+constexpr double kNearest_m = 0.3;
 constexpr int kBeside_px = 2;  // A surface touches the body over this many pixels that are neither.
 
-double Length_m(const body_model::BodyModel& model, const std::string& name) {
-  const auto limb = model.Find(name);
-  return limb ? model.limbs()[static_cast<std::size_t>(*limb)].shape.length_m : 0.0;
-}
-
-double Nearest_m(const std::vector<Vector3d>& places_m, const Vector3d& point_m) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vector3d& place_m : places_m) least = std::min(least, (point_m - place_m).norm());
-  return least;
-}
-
-/// The pixels that may show what is within `reach_m` of one of the places.
-cv::Rect BoxAround(const std::vector<Vector3d>& places_m, double reach_m,
-                   const DepthCamera& camera) {
-  cv::Rect box;
-  for (const Vector3d& place_m : places_m) {
-    const double z_m = std::max(0.3, place_m.z());
-    const Eigen::Vector2d centre = camera.Project({place_m.x(), place_m.y(), z_m});
-    const Eigen::Vector2d extent = camera.focal_px * (reach_m / std::max(0.3, z_m - 0.5 * reach_m));
-    const cv::Point low(static_cast<int>(centre.x() - extent.x()),
-                        static_cast<int>(centre.y() - extent.y()));
-    const cv::Point high(static_cast<int>(centre.x() + extent.x()) + 1,
-                         static_cast<int>(centre.y() + extent.y()) + 1);
-    box |= cv::Rect(low, high);
-  }
-  return box & cv::Rect(0, 0, camera.width_px, camera.height_px);
+/// The pixels that may show what is within `reach_m` of the place.
+cv::Rect BoxAround(const Vector3d& place_m, double reach_m, const DepthCamera& camera) {
+  const double z_m = std::max(kNearest_m, place_m.z());
+  const Eigen::Vector2d centre = camera.Project({place_m.x(), place_m.y(), z_m});
+  const Eigen::Vector2d extent =
+      camera.focal_px * (reach_m / std::max(kNearest_m, z_m - 0.5 * reach_m));
+  const Eigen::Vector2i low = (centre - extent).array().floor().cast<int>();
+  const Eigen::Vector2i high = (centre + extent).array().ceil().cast<int>();
+  return cv::Rect(cv::Point(low.x(), low.y()), cv::Point(high.x() + 1, high.y() + 1)) &
+         cv::Rect(0, 0, camera.width_px, camera.height_px);
 }
 
 }  // namespace
@@ -54,21 +37,12 @@ void LooseEndsConfig::Validate() const {
   faults.ThrowIfAny();
 }
 
-const std::vector<Vector3d>& LooseEnds::Find(const BodyEvidence& evidence,
-                                             const body_model::Kinematics& kinematics,
-                                             const ImageContext& context) {
+const std::vector<Vector3d>& LooseEnds::Find(const BodyEvidence& evidence, const Vector3d& joint_m,
+                                             double reach_m, const ImageContext& context) {
   points_m_.clear();
-  shoulders_m_.clear();
-  const auto& model = kinematics.model();
-  for (const std::string side : {"right_", "left_"}) {
-    if (const auto arm = model.Find(side + "upper_arm")) {
-      shoulders_m_.push_back(kinematics.proximal_m(*arm));
-    }
-  }
-  if (shoulders_m_.empty()) return points_m_;
-  reach_m_ = Length_m(model, "right_upper_arm") + Length_m(model, "right_lower_arm") +
-             Length_m(model, "right_hand");
-  box_ = BoxAround(shoulders_m_, reach_m_, evidence.view().camera());
+  joint_m_ = joint_m;
+  reach_m_ = reach_m;
+  box_ = BoxAround(joint_m, reach_m, evidence.view().camera());
   if (box_.empty()) return points_m_;
   Mark(evidence, context);
   Measure(evidence);
@@ -94,7 +68,7 @@ void LooseEnds::Mark(const BodyEvidence& evidence, const ImageContext& context) 
         continue;
       }
       const Vector3d point_m = view.Point(u, v);
-      if (Nearest_m(shoulders_m_, point_m) <= reach_m_ && evidence.IsAboveFloor(point_m)) {
+      if ((point_m - joint_m_).norm() <= reach_m_ && evidence.IsAboveFloor(point_m)) {
         row[x] = 1;
       }
     }
@@ -114,7 +88,7 @@ void LooseEnds::Measure(const BodyEvidence& evidence) {
       const Vector3d point_m = view.Point(box_.x + x, box_.y + y);
       const double width_m = point_m.z() * pixel_m;
       end.area_m2 += width_m * width_m;
-      const double away_m = Nearest_m(shoulders_m_, point_m);
+      const double away_m = (point_m - joint_m_).norm();
       if (away_m > end.farthest_m) {
         end.farthest_m = away_m;
         end.point_m = point_m;

@@ -4,7 +4,6 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "common/body_model/kinematics.h"
 #include "services/pose_fitter/core/fitting/body_evidence.h"
 
 namespace deixis::pose_fitter {
@@ -12,7 +11,7 @@ namespace deixis::pose_fitter {
 struct LooseEndsConfig {
   double least_area_m2 = 0.004;  ///< Of a surface beside the body, head on; a forearm has 0.02.
   double joined_m = 0.12;        ///< Step in depth from it to the body that it hangs on.
-  double least_m = 0.10;         ///< From the shoulder to its end.
+  double least_m = 0.10;         ///< From the joint that its limb hangs on to its end.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -23,18 +22,17 @@ struct LooseEndsConfig {
   void Validate() const;  ///< Throws FaultsFound.
 };
 
-/// Finds what hangs on a body within the reach of its arms and belongs to none of its limbs: it may
-/// be an arm that got lost. Takes its memory once per size of the image.
+/// Finds what hangs on a body within the reach of an arm or a leg and belongs to none of its limbs:
+/// it may be the one that got lost. Takes its memory once per size of the image.
 class LooseEnds {
  public:
   explicit LooseEnds(const LooseEndsConfig& config) : config_(config) {}
 
-  /// Of each such surface the point that is farthest from the nearer shoulder, in the camera's
-  /// frame; largest surface first, three at most. `evidence`: gathered around the body, which
-  /// `kinematics` has. `context`: whose pixels are somebody else's or the room's. Holds until the
-  /// next call.
+  /// Of each such surface the point that is farthest from `joint_m`, in the camera's frame, within
+  /// `reach_m` of it; largest surface first, three at most. `evidence`: gathered around the body.
+  /// `context`: whose pixels are somebody else's or the room's. Holds until the next call.
   const std::vector<Eigen::Vector3d>& Find(const BodyEvidence& evidence,
-                                           const body_model::Kinematics& kinematics,
+                                           const Eigen::Vector3d& joint_m, double reach_m,
                                            const ImageContext& context);
 
  private:
@@ -49,7 +47,7 @@ class LooseEnds {
   bool TouchesBody(const BodyEvidence& evidence, int u, int v) const;
 
   LooseEndsConfig config_;
-  std::vector<Eigen::Vector3d> shoulders_m_;
+  Eigen::Vector3d joint_m_ = Eigen::Vector3d::Zero();
   double reach_m_ = 0.0;
   cv::Rect box_;
   cv::Mat loose_, labels_;

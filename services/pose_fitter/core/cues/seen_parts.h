@@ -14,7 +14,7 @@ struct SeenPartsConfig {
   double hand_px = 6.0;       ///< Error of a tracked hand beside what the tracker states,
   double face_px = 4.0;       ///< and of a face's centre; pixels of the published picture.
   double merged_trust = 0.5;  ///< In a hand that shares a region with something.
-  double face_trust = 0.3;    ///< In a hand at a face: it may be the face's own skin.
+  double face_trust = 0.1;    ///< In a hand at a face: it may be the face's own skin.
   double face_m = 0.15;       ///< So near to its middle is at a face.
   double acceleration_px_per_s2 = 1500.0;  ///< One sigma of what moves on since it was seen.
 

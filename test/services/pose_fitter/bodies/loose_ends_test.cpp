@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "test/services/pose_fitter/bodies/lost_arm.h"
+#include "test/services/pose_fitter/bodies/lost_limb.h"
 
 namespace deixis::pose_fitter {
 namespace {
@@ -12,13 +12,14 @@ class LooseEndsTest : public ::testing::Test {
   const std::vector<Eigen::Vector3d>& Find(const body_model::BodyPose& pose,
                                            const ImageContext& context = {}) {
     scene_.See(pose, context);
-    return ends_.Find(scene_.evidence_, scene_.kinematics_, context);
+    const int arm = *scene_.model_.Find("right_upper_arm");
+    return ends_.Find(scene_.evidence_, scene_.kinematics_.proximal_m(arm), 0.7, context);
   }
   std::vector<std::uint8_t> AllPixels(std::uint8_t value) const {
     return std::vector<std::uint8_t>(scene_.view_.z_m().size(), value);
   }
 
-  test::LostArm scene_;
+  test::LostLimb scene_;
   LooseEnds ends_{LooseEndsConfig{}};
 };
 

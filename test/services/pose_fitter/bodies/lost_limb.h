@@ -8,9 +8,9 @@
 namespace deixis::pose_fitter::test {
 
 /// Somebody with both arms raised, and the same believed to let the right arm hang.
-class LostArm {
+class LostLimb {
  public:
-  LostArm() {
+  LostLimb() {
     view_.Update(picture_.camera, picture_.depth_mm);
     const auto hanging = body_model::Standing(model_);
     for (const char* name :
