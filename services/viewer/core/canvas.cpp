@@ -50,12 +50,16 @@ void DrawDashes(cv::Point from, cv::Point to, const cv::Scalar& colour, int thic
 }
 
 // Dashes go on round corners: an outline of many short edges is broken like one of few long ones.
+// What lies outside the picture is cut off first, however far it goes.
 void DrawDashedOutline(const std::vector<cv::Point>& corners, const cv::Scalar& colour,
                        int thickness, double dash_px, cv::Mat& picture) {
   double walked_px = 0.0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const cv::Point2d from = corners[i];
-    const cv::Point2d way = cv::Point2d(corners[(i + 1) % corners.size()]) - from;
+    cv::Point start = corners[i];
+    cv::Point end = corners[(i + 1) % corners.size()];
+    if (!cv::clipLine(picture.size(), start, end)) continue;
+    const cv::Point2d from = start;
+    const cv::Point2d way = end - start;
     const double length_px = std::hypot(way.x, way.y);
     for (double at_px = 0.0; at_px < length_px;) {
       const double in_period_px = std::fmod(walked_px + at_px, 2.0 * dash_px);

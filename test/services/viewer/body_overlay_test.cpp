@@ -136,7 +136,16 @@ TEST_F(BodyOverlayTest, DrawsNothingOfWhatLiesBehindTheCamera) {
 TEST_F(BodyOverlayTest, CarriesOnWithAbsurdPlaces) {
   body().limbs[0].frame_from_limb.translation_m = {1e6, -1e6, 0.11};
   body().limbs[0].distal_covariance_m2 = 1e12 * Eigen::Matrix3d::Identity();
-  EXPECT_EQ(Drawn().size(), scene_.image.bgr.size());
+  for (const LimbState state : {LimbState::kMeasured, LimbState::kHidden, LimbState::kLost}) {
+    body().limbs[0].state = state;
+    EXPECT_EQ(Drawn().size(), scene_.image.bgr.size());
+  }
+}
+
+TEST_F(BodyOverlayTest, BreaksTheLineOfALimbThatGoesOutOfThePicture) {
+  body().limbs[0].state = LimbState::kHidden;
+  body().limbs[0].frame_from_limb.translation_m.x() = 0.8;  // Its middle lies at the right border.
+  EXPECT_GT(ChangedPixels({520, 258, 119, 16}), 20);
 }
 
 }  // namespace
