@@ -65,11 +65,14 @@ def test_a_source_that_falls_behind_is_told(tmp_path: Path, capsys: pytest.Captu
     facts = service_facts.as_facts(status("any"))
     services = {name: live._figures(facts, name, 50.0, None, pictures)
                 for name in (*CONSUMERS, "camera_driver")}
+    services["camera_driver"]["lost"] = 2
     clip = tmp_path / "clip.mp4"
     clip.touch()
     result = live._result(services, camera_feed(clip, 30.0), 30.0, 20.0)
     live._print(result | {"load_average": [0.5, 2.0], "bodies": None})
     assert (result["pictures_wanted"], result["source_fell_behind"]) == (600, is_behind)
+    each_ms = result["summary"]["camera_driver"]["cpu_ms_per_result"]  # Half of a core for 20 s.
+    assert each_ms == pytest.approx(10_000.0 / (pictures - 2))
     said = f"{pictures} of 600 pictures: the machine is too slow for 30 Hz; ages grow with it\n"
     assert (said in capsys.readouterr().out) == is_behind
 

@@ -143,9 +143,14 @@ def _feed(arguments: argparse.Namespace, where: layout.Layout, scratch: Path) ->
 
 def _result(services: dict[str, dict[str, Any]], feed: Feed, rate_hz: float,
             seconds: float) -> dict[str, Any]:
-    """The figures of all services, and whether as many pictures came as were asked for."""
+    """The figures of all services, and whether as many pictures came as were asked for.
+
+    CPU time per result says what a service costs also where others load the machine, and it gets less than it wants.
+    """
     pictures, wanted = services[feed.driver]["pictures"], round(rate_hz * seconds)
-    return {"summary": services, "lost": services[feed.last]["lost"],
+    rows = {name: {**row, "cpu_ms_per_result": 10.0 * row["cpu_percent"] * seconds / max(1, row["pictures"] - row["lost"])}
+            for name, row in services.items()}
+    return {"summary": rows, "lost": services[feed.last]["lost"],
             "pictures": pictures, "pictures_wanted": wanted,
             "source_fell_behind": pictures < LEAST_SHARE * wanted, "rate_hz": rate_hz,
             "seconds": seconds, "clip": feed.name}
@@ -298,11 +303,11 @@ def _print(result: dict[str, Any]) -> None:
         print(f"{result['pictures']} of {result['pictures_wanted']} pictures: the machine is too slow"
               f" for {result['rate_hz']:g} Hz; ages grow with it")
     print(f"{'service':<20}{'lost':>6}{'skipped':>9}{'age p50':>9}{'p99 ms':>8}"
-          f"{'work p50':>10}{'p99 ms':>8}{'CPU %':>7}{'MB':>6}")
+          f"{'work p50':>10}{'p99 ms':>8}{'CPU %':>7}{'ms each':>9}{'MB':>6}")
     for name, row in result["summary"].items():
         print(f"{name:<20}{row['lost']:>6}{row['skipped']:>9}{_number(row['age_p50_ms']):>9}"
               f"{_number(row['age_p99_ms']):>8}{_number(row['processing_p50_ms']):>10}"
-              f"{_number(row['processing_p99_ms']):>8}{row['cpu_percent']:>7.1f}"
+              f"{_number(row['processing_p99_ms']):>8}{row['cpu_percent']:>7.1f}{row['cpu_ms_per_result']:>9.1f}"
               f"{_number(row['memory_mb']):>6}")
     if result["bodies"]:
         print_bodies(result["bodies"])
