@@ -73,8 +73,8 @@ void BodyEvidenceConfig::Validate() const {
 
 void BodyEvidence::Gather(const DepthView& view, body_model::Kinematics& kinematics,
                           const std::vector<const body_model::BodyPose*>& poses,
-                          const std::optional<body_model::Floor>& floor, const BodyMask& mask,
-                          double gate_m) {
+                          const std::optional<body_model::Floor>& floor,
+                          const ImageContext& context, double gate_m) {
   view_ = &view;
   floor_ = floor;
   body_.create(view.height_px(), view.width_px(), CV_8UC1);
@@ -82,8 +82,11 @@ void BodyEvidence::Gather(const DepthView& view, body_model::Kinematics& kinemat
   box_ = {};
   for (const body_model::BodyPose* pose : poses) {
     kinematics.Update(*pose);
-    MarkBody(kinematics, mask, gate_m);
+    MarkBody(kinematics, context, gate_m);
   }
+  foreground_ = context.foreground;
+  cues_.clear();
+  if (context.cues != nullptr) cues_ = *context.cues;
   RemoveIslands();
   MeasureClearance(kinematics.proximal_m(0).z());
   TakePoints();
@@ -93,15 +96,15 @@ bool BodyEvidence::IsAboveFloor(const Vector3d& point_m) const {
   return !floor_ || floor_->normal.dot(point_m) + floor_->offset_m > config_.above_floor_m;
 }
 
-void BodyEvidence::MarkBody(const body_model::Kinematics& kinematics, const BodyMask& mask,
+void BodyEvidence::MarkBody(const body_model::Kinematics& kinematics, const ImageContext& context,
                             double gate_m) {
   for (int limb = 0; limb < kinematics.model().limb_count(); ++limb) {
-    MarkLimb(kinematics, limb, mask, gate_m);
+    MarkLimb(kinematics, limb, context, gate_m);
   }
 }
 
 void BodyEvidence::MarkLimb(const body_model::Kinematics& kinematics, int limb,
-                            const BodyMask& mask, double gate_m) {
+                            const ImageContext& context, double gate_m) {
   const Rod rod = RodOf(kinematics, limb);
   const cv::Rect box = BoxOf(rod, gate_m, view_->camera());
   if (box.empty()) return;
@@ -109,12 +112,24 @@ void BodyEvidence::MarkLimb(const body_model::Kinematics& kinematics, int limb,
   for (int v = box.y; v < box.y + box.height; ++v) {
     auto* row = body_.ptr<std::uint8_t>(v);
     for (int u = box.x; u < box.x + box.width; ++u) {
-      if (row[u] != 0 || view_->z_m(u, v) <= 0.0F) continue;
+      if (row[u] != 0 || view_->z_m(u, v) <= 0.0F || !context.MayBeBody(*view_, u, v)) continue;
       const Vector3d point_m = view_->Point(u, v);
       if (rod.Distance_m(point_m) > gate_m || !IsAboveFloor(point_m)) continue;
-      const auto pixel = static_cast<std::size_t>(v * view_->width_px() + u);
-      if (mask.taken != nullptr && (*mask.taken)[pixel] != 0) continue;
       row[u] = 1;
+    }
+  }
+}
+
+void BodyEvidence::MarkNear(const body_model::Kinematics& kinematics, double reach_m,
+                            std::vector<std::uint8_t>& pixels) const {
+  for (int limb = 0; limb < kinematics.model().limb_count(); ++limb) {
+    const Rod rod = RodOf(kinematics, limb);
+    const cv::Rect box = BoxOf(rod, reach_m, view_->camera());
+    for (int v = box.y; v < box.y + box.height; ++v) {
+      for (int u = box.x; u < box.x + box.width; ++u) {
+        if (!IsBody(u, v) || rod.Distance_m(view_->Point(u, v)) > reach_m) continue;
+        pixels[static_cast<std::size_t>(v * view_->width_px() + u)] = 1;
+      }
     }
   }
 }
