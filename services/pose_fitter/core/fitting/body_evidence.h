@@ -53,18 +53,17 @@ class BodyEvidence {
   /// Whether the pixel is the body's.
   bool IsBody(int u_px, int v_px) const { return body_.at<std::uint8_t>(v_px, u_px) != 0; }
   /// How far a pixel that shows background is from the nearest one that may hide the body, pixels;
-  /// 0 where the body may be.
+  /// 0 where the body may be. Far from the body it is endless.
   float Clearance_px(int u_px, int v_px) const { return clearance_px_.at<float>(v_px, u_px); }
   const cv::Mat& body() const { return body_; }  ///< CV_8UC1, 1 = the body's.
 
  private:
-  void MarkBody(const body_model::Kinematics& kinematics, const BodyMask& mask, double gate_m);
-  void MarkLimb(const body_model::Kinematics& kinematics, int limb, const BodyMask& mask,
-                double gate_m);
+  void MarkBody(const body_model::Kinematics& kinematics, double gate_m);
+  void TakeOut(const BodyMask& mask);
   void RemoveIslands();
   void MeasureClearance(double root_z_m);
   void TakePoints();
-  bool IsAboveFloor(const Eigen::Vector3d& point_m) const;
+  void TakeRow(int begin, int end, int v, int step);
 
   BodyEvidenceConfig config_;
   const DepthView* view_ = nullptr;

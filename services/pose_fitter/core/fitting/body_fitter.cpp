@@ -175,7 +175,7 @@ void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
   }
   const auto across = static_cast<float>(config_.across_m);
   const auto reach = static_cast<float>(reach_m);
-  scores_.assign(count, reach / across);
+  scores2_.assign(count, reach / across * (reach / across));
   winners_.assign(count, -1);
   for (const PointBlock& block : points.blocks) AssignBlock(points, block, reach);
 }
@@ -190,13 +190,13 @@ void BodyFitter::AssignBlock(const BodyPoints& points, const PointBlock& block, 
   std::sort(near_.begin(), near_.end());
   const auto across = static_cast<float>(config_.across_m);
   const Eigen::Map<const Eigen::ArrayXf> sigmas(points.sigma_z_m.data() + block.first, block.count);
-  const Eigen::Map<const Eigen::ArrayXf> scores(scores_.data() + block.first, block.count);
+  const Eigen::Map<const Eigen::ArrayXf> scores2(scores2_.data() + block.first, block.count);
   const float unit_m = std::max(across, sigmas.maxCoeff());
   for (const auto& [gap_m, limb] : near_) {
-    if (gap_m > scores.maxCoeff() * unit_m) break;
+    if (gap_m > 0.0F && gap_m * gap_m > scores2.maxCoeff() * unit_m * unit_m) break;
     ScoreLimb(surfaces_[static_cast<std::size_t>(limb)], limb, across,
               Slice(points, block.first, block.count),
-              {scores_.data() + block.first, winners_.data() + block.first});
+              {scores2_.data() + block.first, winners_.data() + block.first});
   }
 }
 

@@ -127,7 +127,7 @@ class BodyFitter final : public PoseMethod {
   std::vector<LimbSurface> surfaces_;
   std::vector<LimbCapsule> capsules_;        ///< Around each limb.
   std::vector<std::pair<float, int>> near_;  ///< Limbs near a block: how far, which.
-  std::vector<float> scores_;
+  std::vector<float> scores2_;               ///< Of each point, squared.
   std::vector<int> winners_;
   BodyPoints sorted_;
   std::vector<int> first_of_limb_;  ///< Among sorted_.
