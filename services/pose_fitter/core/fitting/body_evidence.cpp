@@ -182,13 +182,15 @@ void BodyEvidence::TakePoints() {
   points_.Clear();
   if (box_.empty()) return;
   constexpr int kTile = 16;
-  const int step = std::max(
-      1,
-      static_cast<int>(std::lround(std::sqrt(static_cast<double>(pixel_count_) / config_.points))));
+  const double pixels_per_point = static_cast<double>(pixel_count_) / config_.points;
+  const int step = std::max(1, static_cast<int>(std::sqrt(pixels_per_point)));
+  const Sampling sampling{step, std::min(1.0, step * step / pixels_per_point)};
+  double due = 0.0;
   for (int top = box_.y; top < box_.y + box_.height; top += kTile) {
     for (int left = box_.x; left < box_.x + box_.width; left += kTile) {
+      const int end = std::min(left + kTile, box_.x + box_.width);
       for (int v = top; v < std::min(top + kTile, box_.y + box_.height); ++v) {
-        if (v % step == 0) TakeRow(left, std::min(left + kTile, box_.x + box_.width), v, step);
+        if (v % step == 0) due = TakeRow(left, end, v, sampling, due);
       }
       points_.EndBlock();
     }
@@ -196,15 +198,20 @@ void BodyEvidence::TakePoints() {
 }
 
 // Every other row is shifted by half a step.
-void BodyEvidence::TakeRow(int begin, int end, int v, int step) {
+double BodyEvidence::TakeRow(int begin, int end, int v, const Sampling& sampling, double due) {
+  const int step = sampling.step_px;
   const auto& camera = view_->camera();
   const auto* body = body_.ptr<std::uint8_t>(v);
   const int shift = v / step % 2 * (step / 2);
   for (int u = begin + (step - (begin + shift) % step) % step; u < end; u += step) {
     if (body[u] == 0) continue;
+    due += sampling.share;
+    if (due < 1.0) continue;
+    due -= 1.0;
     const auto z_m = static_cast<double>(view_->z_m(u, v));
     points_.Add(view_->Point(u, v).cast<float>(), static_cast<float>(camera.noise.Sigma_m(z_m)));
   }
+  return due;
 }
 
 }  // namespace deixis::pose_fitter

@@ -15,8 +15,7 @@ namespace deixis::pose_fitter {
 struct BodyEvidenceConfig {
   double gate_m = 0.12;         ///< Pixels this near to the predicted body may belong to it.
   double above_floor_m = 0.04;  ///< Lower ones are the floor's.
-  int points =
-      2000;  ///< That the fit uses, spread over the body's pixels; up to 2.3 times as many.
+  int points = 1500;      ///< That the fit uses at most, about, spread over the body's pixels.
   double behind_m = 0.3;  ///< Background is what lies no further than this before the root.
 
   template <typename Visitor>
@@ -63,7 +62,13 @@ class BodyEvidence {
   void RemoveIslands();
   void MeasureClearance(double root_z_m);
   void TakePoints();
-  void TakeRow(int begin, int end, int v, int step);
+  /// Which of the body's pixels become points.
+  struct Sampling {
+    int step_px = 1;     ///< Every so many columns and rows,
+    double share = 1.0;  ///< and this share of them.
+  };
+  /// `due`: what is left of a point before and after.
+  double TakeRow(int begin, int end, int v, const Sampling& sampling, double due);
 
   BodyEvidenceConfig config_;
   const DepthView* view_ = nullptr;

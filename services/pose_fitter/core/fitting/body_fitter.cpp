@@ -145,8 +145,10 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
     kinematics_.Update(pose);
     equations_.SetZero(6 + model_->angle_count());
     limb_equations_.SetZero(kinematics_.proximal_m(0));
-    Assign(points, reach_m);
-    AddPoints(points, scale_m);
+    PlaceLimbs();
+    // Points rarely change their limbs: where each belongs is asked in every other round.
+    if (round % 2 == 0) Assign(points, reach_m);
+    AddPoints(scale_m);
     for (int limb = 0; limb < model_->limb_count(); ++limb) {
       limb_equations_.Add(limb, sums_[static_cast<std::size_t>(limb)], weight);
     }
@@ -165,19 +167,23 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
   return result_;
 }
 
-void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
-  const auto count = static_cast<std::size_t>(points.count());
+void BodyFitter::PlaceLimbs() {
   for (int limb = 0; limb < model_->limb_count(); ++limb) {
     const auto k = static_cast<std::size_t>(limb);
     const auto& shape = model_->limbs()[k].shape;
     surfaces_[k] = SurfaceOf(kinematics_.limb(limb), shape);
     capsules_[k] = CapsuleOf(kinematics_.limb(limb), shape);
   }
+}
+
+void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
+  const auto count = static_cast<std::size_t>(points.count());
   const auto across = static_cast<float>(config_.across_m);
   const auto reach = static_cast<float>(reach_m);
   scores2_.assign(count, reach / across * (reach / across));
   winners_.assign(count, -1);
   for (const PointBlock& block : points.blocks) AssignBlock(points, block, reach);
+  SortByLimb(points);
 }
 
 // From the nearest limb on: those come no further that are too far to explain any point better.
@@ -200,7 +206,7 @@ void BodyFitter::AssignBlock(const BodyPoints& points, const PointBlock& block, 
   }
 }
 
-void BodyFitter::AddPoints(const BodyPoints& points, double scale_m) {
+void BodyFitter::SortByLimb(const BodyPoints& points) {
   const auto limbs = static_cast<std::size_t>(model_->limb_count());
   std::fill(first_of_limb_.begin(), first_of_limb_.end(), 0);
   for (const int winner : winners_) {
@@ -221,11 +227,14 @@ void BodyFitter::AddPoints(const BodyPoints& points, double scale_m) {
     sorted_.z_m[at] = points.z_m[i];
     sorted_.sigma_z_m[at] = points.sigma_z_m[i];
   }
+}
+
+void BodyFitter::AddPoints(double scale_m) {
   const Eigen::Vector3f root_m = limb_equations_.root_m().cast<float>();
   const SumSettings settings{{root_m.x(), root_m.y(), root_m.z()},
                              static_cast<float>(scale_m),
                              static_cast<float>(config_.across_m)};
-  for (std::size_t k = 0; k < limbs; ++k) {
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
     sums_[k] = {};
     const int count = first_of_limb_[k + 1] - first_of_limb_[k];
     if (count > 0)
@@ -330,8 +339,9 @@ void BodyFitter::Step(body_model::BodyPose& pose) {
 
 void BodyFitter::Judge(const BodyEvidence& evidence) {
   const BodyPoints& points = evidence.points();
+  PlaceLimbs();
   Assign(points, config_.last_reach_m);
-  AddPoints(points, config_.judged_scale_m);
+  AddPoints(config_.judged_scale_m);
   int explained = 0;
   double cost = 0.0;
   for (int limb = 0; limb < model_->limb_count(); ++limb) {

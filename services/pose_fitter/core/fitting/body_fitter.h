@@ -102,9 +102,11 @@ class BodyFitter final : public PoseMethod {
   const std::vector<int>& winners() const override { return winners_; }
 
  private:
+  void PlaceLimbs();
   void Assign(const BodyPoints& points, double reach_m);
   void AssignBlock(const BodyPoints& points, const PointBlock& block, float reach_m);
-  void AddPoints(const BodyPoints& points, double scale_m);
+  void SortByLimb(const BodyPoints& points);
+  void AddPoints(double scale_m);
   void AddPriors(const body_model::BodyPose& pose, const body_model::BodyPose& predicted,
                  std::optional<double> seconds);
   void AddLimits(const body_model::BodyPose& pose);

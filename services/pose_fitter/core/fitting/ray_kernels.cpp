@@ -140,8 +140,7 @@ struct Root {
   return m;
 }
 
-/// The square of a point's score: as Meet has it, with the ratio of semi-axes at the point's own
-/// height, which is that of the meeting where the limb explains the point.
+/// The square of a point's score: as Meet has it, with one look less at the taper.
 [[gnu::always_inline]] inline float Score2(const LimbSurface& limb, float inverse_across2, float x,
                                            float y, float z, float sigma) {
   const float* r = limb.camera_from_limb;
