@@ -8,6 +8,7 @@ namespace deixis::pose_fitter {
 namespace {
 
 constexpr std::size_t kMostPeople = 32;
+constexpr int kAlone = 4;  // While nobody is followed, there is so much more effort to find people.
 constexpr double kShortest_m = 1.4, kTallest_m = 2.05;  // Statures that a head's height may tell.
 
 }  // namespace
@@ -32,14 +33,15 @@ PoseFitter::PoseFitter(const PoseFitterConfig& config)
       finder_(config.people),
       starter_(config.start, config.evidence, config.fit),
       tracks_(config.tracks),
-      parts_(config.cues) {}
+      parts_(config.cues),
+      searched_(config.search_s) {}
 
 const body_model::BodyPoses& PoseFitter::Track(const images::DepthImage& image,
                                                const geometry::StereoCalibration& calibration) {
   view_.Update(DepthCameraOf(calibration, image.depth_mm.size()), image.depth_mm);
   const double time_s = 1e-6 * static_cast<double>(image.time.microseconds);
   const double seconds = last_time_ ? SecondsBetween(*last_time_, image.time) : 0.0;
-  if (seconds <= 0.0 || seconds > config_.tracks.hidden_time_s) people_.clear();
+  if (seconds <= 0.0 || seconds > config_.tracks.hidden_time_s) Forget();
   last_time_ = image.time;
   const auto& is_sound = sound_.Find(view_);
   floor_ = floor_tracker_.Update(view_, is_sound, time_s);
@@ -118,30 +120,64 @@ void PoseFitter::Take(std::size_t person) {
   }
 }
 
+// What there is to do is spread over images: the search goes on in the next one until all regions
+// had their turn, and then begins anew some time later.
 void PoseFitter::FindNew(const std::vector<std::uint8_t>& is_sound, double time_s) {
-  if (last_search_s_ && time_s >= *last_search_s_ && time_s - *last_search_s_ < config_.search_s) {
-    return;
+  const bool is_due =
+      !last_search_s_ || time_s < *last_search_s_ || time_s - *last_search_s_ >= config_.search_s;
+  if (!is_due && !quest_) return;
+  finder_.Find(view_, is_sound, floor_);
+  Effort effort{people_.empty() ? kAlone * config_.start.effort : config_.start.effort};
+  if (quest_) Search(time_s, effort);
+  for (const PersonRegion& region : finder_.regions().regions) {
+    if (effort.left <= 0) return;
+    Meet(region, time_s, effort);
   }
-  last_search_s_ = time_s;
-  for (const PersonRegion& region : finder_.Find(view_, is_sound, floor_).regions) Meet(region);
+  if (!quest_) last_search_s_ = time_s;
 }
 
 // A region that nobody has yet may be somebody new; one of a person who is badly explained may tell
 // of another pose.
-void PoseFitter::Meet(const PersonRegion& region) {
+void PoseFitter::Meet(const PersonRegion& region, double time_s, Effort& effort) {
+  if (!searched_.IsDue(region.centroid_m, time_s)) return;
   std::vector<int> by_person(kMostPeople + 1, 0);
   const int taken = TakenPixels(region, by_person);
   const PeopleRegions& regions = finder_.regions();
   if (taken > config_.most_taken * region.pixel_count) {
     const auto most = std::max_element(by_person.begin() + 1, by_person.end());
-    FollowedPerson& owner = *people_[static_cast<std::size_t>(most - by_person.begin() - 1)];
-    if (owner.IsDoubtful()) owner.AddRivals(starter_.Find(view_, regions, region, owner.model()));
+    const FollowedPerson& owner = *people_[static_cast<std::size_t>(most - by_person.begin() - 1)];
+    if (!owner.IsDoubtful() || owner.id < 0) return;
+    quest_ = {region.centroid_m, std::nullopt, owner.id};
+    starter_.Begin(view_, regions, region, owner.model());
+  } else {
+    if (people_.size() >= kMostPeople) return;
+    quest_ = {region.centroid_m, BodyOf(region), -1};
+    starter_.Begin(view_, regions, region, quest_->body->model);
+  }
+  Search(time_s, effort);
+}
+
+void PoseFitter::Search(double time_s, Effort& effort) {
+  starter_.Advance(view_, finder_.regions(), effort);
+  if (starter_.IsBusy()) return;
+  Conclude(time_s);
+  quest_.reset();
+}
+
+void PoseFitter::Conclude(double time_s) {
+  auto starts = starter_.TakeFound();
+  if (!quest_->body) {
+    for (const auto& person : people_) {
+      if (person->id == quest_->owner) person->AddRivals(std::move(starts));
+    }
+    searched_.NoteFound(quest_->centre_m, time_s);
     return;
   }
-  if (people_.size() >= kMostPeople) return;
-  const PersonBody body = BodyOf(region);
-  auto starts = starter_.Find(view_, regions, region, body.model);
-  if (starts.empty()) return;
+  if (starts.empty()) {
+    searched_.NoteInVain(quest_->centre_m, time_s);
+    return;
+  }
+  searched_.NoteFound(quest_->centre_m, time_s);
   people_.push_back(std::make_unique<FollowedPerson>(
       FollowSettings{config_.follow,
                      config_.start,
@@ -149,9 +185,16 @@ void PoseFitter::Meet(const PersonRegion& region) {
                      config_.evidence,
                      {config_.method, config_.fit, config_.limb_icp},
                      config_.shape},
-      body, maker_.plan(), std::move(starts)));
+      *quest_->body, maker_.plan(), std::move(starts)));
   people_.back()->Look(view_, floor_);
   Take(people_.size() - 1);
+}
+
+void PoseFitter::Forget() {
+  people_.clear();
+  quest_.reset();
+  searched_.Clear();
+  last_search_s_.reset();
 }
 
 PersonBody PoseFitter::BodyOf(const PersonRegion& region) const {

@@ -17,6 +17,7 @@
 #include "services/pose_fitter/core/people/background_model.h"
 #include "services/pose_fitter/core/people/people_finder.h"
 #include "services/pose_fitter/core/people/person_tracks.h"
+#include "services/pose_fitter/core/start/searched_places.h"
 #include "services/pose_fitter/core/start/starter.h"
 
 namespace deixis::pose_fitter {
@@ -89,12 +90,15 @@ class PoseFitter {
   std::vector<body_model::PersonModel> Models() const;
 
  private:
+  void Forget();
   void ShareCues(const std::vector<PartCue>& cues);
   std::vector<PartCue>* OwnerOf(const PartCue& cue);  ///< nullptr = nobody.
   void FollowAll(const std::vector<std::uint8_t>& foreground, double seconds);
   void LearnRoom(const std::vector<std::uint8_t>& is_sound, double seconds);
   void FindNew(const std::vector<std::uint8_t>& is_sound, double time_s);
-  void Meet(const PersonRegion& region);
+  void Meet(const PersonRegion& region, double time_s, Effort& effort);
+  void Search(double time_s, Effort& effort);
+  void Conclude(double time_s);
   PersonBody BodyOf(const PersonRegion& region) const;
   void Take(std::size_t person);
   int TakenPixels(const PersonRegion& region, std::vector<int>& by_person) const;
@@ -118,7 +122,15 @@ class PoseFitter {
   std::vector<std::uint8_t> taken_;     ///< Per pixel: 0 = nobody's, else 1 + the person's place.
   std::vector<std::uint8_t> occupied_;  ///< Per pixel: whether it is near to somebody's limbs.
   std::optional<Timestamp> last_time_;
-  std::optional<double> last_search_s_;
+  std::optional<double> last_search_s_;  ///< When all regions had been met.
+  /// What is searched now.
+  struct Quest {
+    Eigen::Vector3d centre_m;
+    std::optional<PersonBody> body;  ///< Of somebody new.
+    int owner = -1;                  ///< Else whom it may tell of another pose.
+  };
+  std::optional<Quest> quest_;
+  SearchedPlaces searched_;
   body_model::BodyPoses poses_;
 };
 

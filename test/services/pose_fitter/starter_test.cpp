@@ -41,6 +41,27 @@ TEST_F(StarterTest, FindsTheRootOfSomebodyWhoStands) {
   EXPECT_LE(starts[0].mean_score, StarterConfig{}.worst_score);
 }
 
+TEST_F(StarterTest, FindsTheSameWhenItMayDoLittleInEachImage) {
+  const test::Picture picture = WithPerson(test::StandingIn(room_, body_, 0.2, 2.6));
+  const auto at_once = Find(picture);
+  const auto& regions = finder_.regions();
+  starter_.Begin(view_, regions, regions.regions[0], body_);
+  int images = 0, most = 0;
+  for (; starter_.IsBusy(); ++images) {
+    Effort effort{20000};
+    starter_.Advance(view_, regions, effort);
+    most = std::max(most, 20000 - effort.left);
+  }
+  EXPECT_GT(images, 5);
+  EXPECT_LT(most, 100000) << "no more than one pose beyond what is allowed";
+  const auto found = starter_.TakeFound();
+  ASSERT_EQ(found.size(), at_once.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].mean_score, at_once[i].mean_score);
+    EXPECT_EQ(found[i].pose.angles_rad, at_once[i].pose.angles_rad);
+  }
+}
+
 TEST_F(StarterTest, ScoresABoxWorseThanAPersonOrOffersNobody) {
   room_.Add(test::Box{{-0.4, 2.4, 0.0}, {0.4, 2.8, 1.7}});
   test::Picture picture = test::Look(room_, 240);

@@ -46,6 +46,7 @@ void FollowConfig::Validate() const {
   faults.Require(covariance_factor > 0.0, "covariance_factor", "must be positive");
   faults.Require(shape_frames >= 0 && shape_frames <= 1000, "shape_frames", "must be 0..1000");
   faults.Require(shape_period_s >= 0.0, "shape_period_s", "must not be negative");
+  faults.Require(shape_work >= 1, "shape_work", "must be at least 1");
   faults.Require(shape_points >= 10, "shape_points", "must be at least 10");
   faults.ThrowIfAny();
 }
@@ -104,6 +105,7 @@ void FollowedPerson::Follow(const DepthView& view, const std::optional<body_mode
     Fit(floor, predicted[i], seconds, hypotheses_[i]);
   }
   Remember(seconds);
+  LearnShape();
   Choose();
   if (settings_.fit.method != FitMethod::kArticulated) return;
   auto better = search_->Find(evidence_, floor, context, seconds, best());
@@ -152,7 +154,9 @@ bool FollowedPerson::IsNobody() const {
 // Images for the person's shape: such without doubt, apart from each other.
 void FollowedPerson::Remember(double seconds) {
   since_frame_s_ += seconds;
-  if (next_lesson_ == 0 || hypotheses_.size() > 1 || best().age_s < settings_.follow.settle_s ||
+  const int most = lesson_ ? 2 * next_lesson_ : next_lesson_;
+  if (static_cast<int>(frames_.size()) >= most || hypotheses_.size() > 1 ||
+      best().age_s < settings_.follow.settle_s ||
       best().result.score > settings_.follow.shape_score ||
       since_frame_s_ < settings_.follow.shape_period_s) {
     return;
@@ -169,13 +173,19 @@ void FollowedPerson::Remember(double seconds) {
         {Eigen::Vector3f(points.x_m[k], points.y_m[k], points.z_m[k]).cast<double>(),
          static_cast<double>(points.sigma_z_m[k]), fitter_->winners()[k]});
   }
-  if (static_cast<int>(frames_.size()) >= next_lesson_) LearnShape();
 }
 
+// A little in each image.
 void FollowedPerson::LearnShape() {
-  const ShapeParameters parameters(*first_model_, *plan_, estimate_);
-  const ShapeResult learned = CalibrateShape(parameters, frames_, settings_.shape);
-  if (learned.shape) Wear(*learned.shape);
+  if (!lesson_ && next_lesson_ > 0 && static_cast<int>(frames_.size()) >= next_lesson_) {
+    lesson_ = std::make_unique<ShapeCalibration>(ShapeParameters(*first_model_, *plan_, estimate_),
+                                                 frames_, settings_.shape);
+  }
+  if (!lesson_) return;
+  lesson_->Advance(settings_.follow.shape_work);
+  if (!lesson_->IsOver()) return;
+  if (lesson_->result().shape) Wear(*lesson_->result().shape);
+  lesson_.reset();
   next_lesson_ *= 2;
   if (next_lesson_ > kLessons * settings_.follow.shape_frames) {
     next_lesson_ = 0;
@@ -183,13 +193,12 @@ void FollowedPerson::LearnShape() {
   }
 }
 
-// Angles mean the same in the new body; its next fit starts from the pose that was learned with it.
+// Angles mean the same in the new body.
 void FollowedPerson::Wear(const CalibratedShape& shape) {
   model_ = std::make_unique<body_model::BodyModel>(shape.model);
   kinematics_ = std::make_unique<body_model::Kinematics>(*model_);
   fitter_ = MakePoseMethod(settings_.fit, *model_);
   MakeLimbSearch();
-  hypotheses_.front().pose = shape.poses.back();
 }
 
 // A fit believes in the few points of a limb that is mostly out of sight, which may be another's.

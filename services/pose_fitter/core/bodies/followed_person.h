@@ -29,6 +29,7 @@ struct FollowConfig {
   double shape_period_s = 0.15;     ///< Between two of them.
   double shape_score = 0.4;         ///< Images with a worse one are not taken.
   int shape_points = 400;           ///< Taken from each.
+  int shape_work = 4;               ///< Of them so many are looked at again in each image.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -45,6 +46,7 @@ struct FollowConfig {
     v("shape_period_s", shape_period_s);
     v("shape_score", shape_score);
     v("shape_points", shape_points);
+    v("shape_work", shape_work);
   }
   void Validate() const;  ///< Throws FaultsFound.
 };
@@ -117,6 +119,7 @@ class FollowedPerson {
   double unseen_s_ = 0.0;
   std::vector<ShapeFrame> frames_;
   double since_frame_s_ = 0.0;
+  std::unique_ptr<ShapeCalibration> lesson_;  ///< What is being learned.
   int next_lesson_ = 0;  ///< Number of frames that the shape is learned from next; 0 = no more.
 };
 

@@ -16,8 +16,7 @@ namespace deixis::pose_fitter {
 struct BodyEvidenceConfig {
   double gate_m = 0.12;         ///< Pixels this near to the predicted body may belong to it.
   double above_floor_m = 0.04;  ///< Lower ones are the floor's.
-  int points =
-      2000;  ///< That the fit uses, spread over the body's pixels; up to 2.3 times as many.
+  int points = 1500;      ///< That the fit uses at most, about, spread over the body's pixels.
   double behind_m = 0.3;  ///< Background is what lies no further than this before the root.
 
   template <typename Visitor>
@@ -59,7 +58,7 @@ class BodyEvidence {
               const std::optional<body_model::Floor>& floor, const ImageContext& context,
               double gate_m);
 
-  /// Sets the body's pixels that are within `reach_m` of the limbs of `kinematics`.
+  /// Sets the pixels whose points are within `reach_m` of the limbs of `kinematics`.
   void MarkNear(const body_model::Kinematics& kinematics, double reach_m,
                 std::vector<std::uint8_t>& pixels) const;
 
@@ -76,18 +75,24 @@ class BodyEvidence {
            (*foreground_)[static_cast<std::size_t>(v_px * view_->width_px() + u_px)] == 0;
   }
   /// How far a pixel that shows background is from the nearest one that may hide the body, pixels;
-  /// 0 where the body may be.
+  /// 0 where the body may be. Far from the body it is endless.
   float Clearance_px(int u_px, int v_px) const { return clearance_px_.at<float>(v_px, u_px); }
   const cv::Mat& body() const { return body_; }  ///< CV_8UC1, 1 = the body's.
 
  private:
-  void MarkBody(const body_model::Kinematics& kinematics, const ImageContext& context,
-                double gate_m);
-  void MarkLimb(const body_model::Kinematics& kinematics, int limb, const ImageContext& context,
-                double gate_m);
+  void MarkBody(const body_model::Kinematics& kinematics, double gate_m);
+  /// Takes out the pixels whose mark is set, or is not; nullptr = none.
+  void TakeOut(const std::vector<std::uint8_t>* pixels, bool where_set);
   void RemoveIslands();
   void MeasureClearance(double root_z_m);
   void TakePoints();
+  /// Which of the body's pixels become points.
+  struct Sampling {
+    int step_px = 1;     ///< Every so many columns and rows,
+    double share = 1.0;  ///< and this share of them.
+  };
+  /// `due`: what is left of a point before and after.
+  double TakeRow(int begin, int end, int v, const Sampling& sampling, double due);
 
   BodyEvidenceConfig config_;
   const DepthView* view_ = nullptr;

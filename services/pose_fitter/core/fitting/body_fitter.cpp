@@ -146,8 +146,10 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
     kinematics_.Update(pose);
     equations_.SetZero(6 + model_->angle_count());
     limb_equations_.SetZero(kinematics_.proximal_m(0));
-    Assign(points, reach_m);
-    AddPoints(points, scale_m);
+    PlaceLimbs();
+    // Points rarely change their limbs: where each belongs is asked in every other round.
+    if (round % 2 == 0) Assign(points, reach_m);
+    AddPoints(scale_m);
     for (int limb = 0; limb < model_->limb_count(); ++limb) {
       limb_equations_.Add(limb, sums_[static_cast<std::size_t>(limb)], weight);
     }
@@ -174,19 +176,23 @@ const FitResult& BodyFitter::Judge(const BodyEvidence& evidence, const body_mode
   return result_;
 }
 
-void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
-  const auto count = static_cast<std::size_t>(points.count());
+void BodyFitter::PlaceLimbs() {
   for (int limb = 0; limb < model_->limb_count(); ++limb) {
     const auto k = static_cast<std::size_t>(limb);
     const auto& shape = model_->limbs()[k].shape;
     surfaces_[k] = SurfaceOf(kinematics_.limb(limb), shape);
     capsules_[k] = CapsuleOf(kinematics_.limb(limb), shape);
   }
+}
+
+void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
+  const auto count = static_cast<std::size_t>(points.count());
   const auto across = static_cast<float>(config_.across_m);
   const auto reach = static_cast<float>(reach_m);
-  scores_.assign(count, reach / across);
+  scores2_.assign(count, reach / across * (reach / across));
   winners_.assign(count, -1);
   for (const PointBlock& block : points.blocks) AssignBlock(points, block, reach);
+  SortByLimb(points);
 }
 
 // From the nearest limb on: those come no further that are too far to explain any point better.
@@ -199,17 +205,17 @@ void BodyFitter::AssignBlock(const BodyPoints& points, const PointBlock& block, 
   std::sort(near_.begin(), near_.end());
   const auto across = static_cast<float>(config_.across_m);
   const Eigen::Map<const Eigen::ArrayXf> sigmas(points.sigma_z_m.data() + block.first, block.count);
-  const Eigen::Map<const Eigen::ArrayXf> scores(scores_.data() + block.first, block.count);
+  const Eigen::Map<const Eigen::ArrayXf> scores2(scores2_.data() + block.first, block.count);
   const float unit_m = std::max(across, sigmas.maxCoeff());
   for (const auto& [gap_m, limb] : near_) {
-    if (gap_m > scores.maxCoeff() * unit_m) break;
+    if (gap_m > 0.0F && gap_m * gap_m > scores2.maxCoeff() * unit_m * unit_m) break;
     ScoreLimb(surfaces_[static_cast<std::size_t>(limb)], limb, across,
               Slice(points, block.first, block.count),
-              {scores_.data() + block.first, winners_.data() + block.first});
+              {scores2_.data() + block.first, winners_.data() + block.first});
   }
 }
 
-void BodyFitter::AddPoints(const BodyPoints& points, double scale_m) {
+void BodyFitter::SortByLimb(const BodyPoints& points) {
   const auto limbs = static_cast<std::size_t>(model_->limb_count());
   std::fill(first_of_limb_.begin(), first_of_limb_.end(), 0);
   for (const int winner : winners_) {
@@ -230,11 +236,14 @@ void BodyFitter::AddPoints(const BodyPoints& points, double scale_m) {
     sorted_.z_m[at] = points.z_m[i];
     sorted_.sigma_z_m[at] = points.sigma_z_m[i];
   }
+}
+
+void BodyFitter::AddPoints(double scale_m) {
   const Eigen::Vector3f root_m = limb_equations_.root_m().cast<float>();
   const SumSettings settings{{root_m.x(), root_m.y(), root_m.z()},
                              static_cast<float>(scale_m),
                              static_cast<float>(config_.across_m)};
-  for (std::size_t k = 0; k < limbs; ++k) {
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
     sums_[k] = {};
     const int count = first_of_limb_[k + 1] - first_of_limb_[k];
     if (count > 0)
@@ -339,8 +348,9 @@ void BodyFitter::Step(body_model::BodyPose& pose) {
 
 void BodyFitter::Judge(const BodyEvidence& evidence) {
   const BodyPoints& points = evidence.points();
+  PlaceLimbs();
   Assign(points, config_.last_reach_m);
-  AddPoints(points, config_.judged_scale_m);
+  AddPoints(config_.judged_scale_m);
   int explained = 0;
   double cost = 0.0;
   for (int limb = 0; limb < model_->limb_count(); ++limb) {

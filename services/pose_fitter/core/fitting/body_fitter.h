@@ -108,9 +108,11 @@ class BodyFitter final : public PoseMethod {
   const std::vector<int>& winners() const override { return winners_; }
 
  private:
+  void PlaceLimbs();
   void Assign(const BodyPoints& points, double reach_m);
   void AssignBlock(const BodyPoints& points, const PointBlock& block, float reach_m);
-  void AddPoints(const BodyPoints& points, double scale_m);
+  void SortByLimb(const BodyPoints& points);
+  void AddPoints(double scale_m);
   void AddPriors(const body_model::BodyPose& pose, const body_model::BodyPose& predicted,
                  std::optional<double> seconds);
   void AddLimits(const body_model::BodyPose& pose);
@@ -134,7 +136,7 @@ class BodyFitter final : public PoseMethod {
   std::vector<LimbSurface> surfaces_;
   std::vector<LimbCapsule> capsules_;        ///< Around each limb.
   std::vector<std::pair<float, int>> near_;  ///< Limbs near a block: how far, which.
-  std::vector<float> scores_;
+  std::vector<float> scores2_;               ///< Of each point, squared.
   std::vector<int> winners_;
   BodyPoints sorted_;
   std::vector<int> first_of_limb_;  ///< Among sorted_.

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -7,12 +8,17 @@
 #include "services/pose_fitter/core/fitting/body_evidence.h"
 #include "services/pose_fitter/core/fitting/body_fitter.h"
 #include "services/pose_fitter/core/people/people_finder.h"
+#include "services/pose_fitter/core/start/effort.h"
 #include "services/pose_fitter/core/start/head_tops.h"
 
 namespace deixis::pose_fitter {
 
 struct StarterConfig {
-  int iterations = 12;          ///< Of the first fit of each start pose.
+  int effort = 60000;           ///< Of one image: points times rounds of fits, about.
+  int coarse_points = 400;      ///< That each start pose is tried with,
+  int coarse_iterations = 6;    ///< in so many rounds;
+  int kept = 2;                 ///< so many go on, that face the camera, and as many that do not.
+  int iterations = 8;           ///< Of the first fit of each of these.
   double first_scale_m = 0.1;   ///< Of its robust weights, in the first round.
   double first_reach_m = 0.25;  ///< Points farther from all limbs do not count, in the first round.
   double rest_rad = 0.5;        ///< Spread of all joints about the start pose, in the first fit.
@@ -25,6 +31,10 @@ struct StarterConfig {
 
   template <typename Visitor>
   void Visit(Visitor& v) {
+    v("effort", effort);
+    v("coarse_points", coarse_points);
+    v("coarse_iterations", coarse_iterations);
+    v("kept", kept);
     v("iterations", iterations);
     v("first_scale_m", first_scale_m);
     v("first_reach_m", first_reach_m);
@@ -43,27 +53,53 @@ struct StarterConfig {
 double FacingPenalty(const StarterConfig& config, const body_model::BodyPose& pose);
 
 /// Finds poses of people of whom nothing but a region of the depth image is known, by articulated
-/// fits: others want a pose to start from.
+/// fits: others want a pose to start from. All start poses are tried with few points; the better
+/// ones go on. A search may take several images, each with as much work as it is allowed.
 class Starter {
  public:
   Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence,
           const BodyFitterConfig& fit);
 
-  /// The best pose that faces the camera and the best one that does not, as far as they are good:
-  /// two at most. `gate_m` is that of the evidence of the second fit.
+  /// Begins to search the region for a body; a search that was under way is given up.
+  void Begin(const DepthView& view, const PeopleRegions& regions, const PersonRegion& region,
+             const body_model::BodyModel& model);
+  /// Goes on in this or a later image. `regions` are those of the image.
+  void Advance(const DepthView& view, const PeopleRegions& regions, Effort& effort);
+  bool IsBusy() const { return next_ < guesses_.size(); }
+  /// What a search that is over has found: the best pose that faces the camera and the best one
+  /// that does not, as far as they are good; two at most.
+  std::vector<Hypothesis> TakeFound();
+
+  /// The same in one image.
   std::vector<Hypothesis> Find(const DepthView& view, const PeopleRegions& regions,
                                const PersonRegion& region, const body_model::BodyModel& model);
 
  private:
-  std::optional<Hypothesis> Try(const DepthView& view,
-                                const std::optional<body_model::Floor>& floor,
-                                const body_model::BodyPose& guess);
+  struct Guess {
+    body_model::BodyPose pose;
+    int place = 0;  ///< Those with the same head have the same one.
+    double score = 0.0;
+  };
+  void TryCoarse(const DepthView& view, const std::optional<body_model::Floor>& floor, Guess& guess,
+                 Effort& effort);
+  void KeepBest();
+  void Refine(const DepthView& view, const PeopleRegions& regions,
+              const body_model::BodyPose& guess, Effort& effort);
+  std::optional<Hypothesis> Try(const DepthView& view, const PeopleRegions& regions,
+                                const body_model::BodyPose& guess, Effort& effort);
+  bool Faces(const body_model::BodyPose& pose) const;
 
   StarterConfig config_;
   double gate_m_;
-  BodyFitterConfig first_fit_, second_fit_;
-  std::optional<BodyFitter> first_, second_;
-  BodyEvidence evidence_;
+  BodyFitterConfig coarse_fit_, first_fit_, second_fit_;
+  std::unique_ptr<body_model::BodyModel> model_;  ///< What is searched for.
+  std::optional<BodyFitter> coarse_, first_, second_;
+  BodyEvidence coarse_evidence_, evidence_;
+  int gathered_place_ = -1;  ///< Of the coarse evidence of this image; -1 = none yet.
+  bool is_refining_ = false;
+  std::vector<Guess> guesses_;
+  std::size_t next_ = 0;
+  std::optional<Hypothesis> facing_, turned_;  ///< The best ones so far.
 };
 
 }  // namespace deixis::pose_fitter
