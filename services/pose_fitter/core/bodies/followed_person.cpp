@@ -216,6 +216,23 @@ void FollowedPerson::AddUnseen(Eigen::MatrixXd& covariance) const {
   }
 }
 
+// Where a limb that is not measured is follows from lengths of which only the stature's spread is
+// known.
+void FollowedPerson::AddSize(body_model::TrackedBody& body) const {
+  if (body.covariance.size() == 0) return;
+  const double share = estimate_.Spread_m("kph") / estimate_.Length_m("kph");
+  const Eigen::Vector3d root_m = body.pose.frame_from_root.translation_m;
+  const auto add = [&](const Eigen::Vector3d& point_m, Eigen::Matrix3d& covariance_m2) {
+    const Eigen::Vector3d off_m = share * (point_m - root_m);
+    covariance_m2 += off_m * off_m.transpose();
+  };
+  for (body_model::LimbPose& limb : body.limbs) {
+    if (limb.state == LimbState::kMeasured) continue;
+    add(limb.proximal_m, limb.proximal_covariance_m2);
+    add(limb.distal_m, limb.distal_covariance_m2);
+  }
+}
+
 Eigen::MatrixXd FollowedPerson::CovarianceOf(const Eigen::MatrixXd& information) const {
   if (settings_.fit.method == FitMethod::kLimbIcp) return {};
   const auto size = information.rows();
@@ -244,6 +261,7 @@ body_model::TrackedBody FollowedPerson::Describe() {
     body.limbs[limb].residual_m = evidence.residual_m;
     body.limbs[limb].state = unseen_s_ > 0.0 ? LimbState::kLost : StateOf(evidence);
   }
+  AddSize(body);
   return body;
 }
 

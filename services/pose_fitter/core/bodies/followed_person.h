@@ -21,8 +21,8 @@ struct FollowConfig {
   double proven_score = 0.35;       ///< Who was once explained so well is somebody,
   double lost_score = 0.8;          ///< and only gone from here on; others by `worst_score`.
   int least_points = 50;            ///< With fewer a person is not seen.
-  double position_sigma_m = 0.012;  ///< Spread of joint places that a fit does not know of.
-  double unseen_rad = 0.35;         ///< Spread of the angles of a limb that is not seen at all.
+  double position_sigma_m = 0.010;  ///< Spread of joint places that a fit does not know of.
+  double unseen_rad = 0.45;         ///< Spread of the angles of a limb that is not seen at all.
   double covariance_factor = 1.0;   ///< Times the covariance that a fit believes in.
   int shape_frames = 20;            ///< Well seen images that a person's shape is learned from;
                                     ///< again from twice and from four times as many; 0 = never.
@@ -102,6 +102,7 @@ class FollowedPerson {
   void LearnShape();
   void Wear(const CalibratedShape& shape);
   void AddUnseen(Eigen::MatrixXd& covariance) const;
+  void AddSize(body_model::TrackedBody& body) const;
   /// 0 x 0 = not known.
   Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& information) const;
 
