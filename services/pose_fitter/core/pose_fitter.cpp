@@ -29,9 +29,11 @@ PoseFitter::PoseFitter(const PoseFitterConfig& config)
       maker_(config.body_model),
       sound_(config.sound),
       floor_tracker_(config.floor),
+      background_(config.background),
       finder_(config.people),
       starter_(config.start, config.evidence, config.fit),
       tracks_(config.tracks),
+      parts_(config.cues),
       searched_(config.search_s) {}
 
 const body_model::BodyPoses& PoseFitter::Track(const images::DepthImage& image,
@@ -43,17 +45,57 @@ const body_model::BodyPoses& PoseFitter::Track(const images::DepthImage& image,
   last_time_ = image.time;
   const auto& is_sound = sound_.Find(view_);
   floor_ = floor_tracker_.Update(view_, is_sound, time_s);
-  FollowAll(seconds);
-  FindNew(is_sound, time_s);
+  const auto& published = calibration.rectified;
+  ShareCues(parts_.At(image.time, image.camera,
+                      Eigen::Vector2d(published.width_px, published.height_px), view_));
+  const auto& foreground = background_.Foreground(view_, is_sound);
+  FollowAll(foreground, seconds);
+  FindNew(foreground, time_s);
+  LearnRoom(is_sound, seconds);
   Number(time_s);
   Report(image);
   return poses_;
 }
 
-void PoseFitter::FollowAll(double seconds) {
+// Each goes to the person who is nearest to it in reaches, if anybody can have it: at the distance
+// that is measured there, or, when that is of something before or behind, at any.
+void PoseFitter::ShareCues(const std::vector<PartCue>& cues) {
+  free_cues_.clear();
+  own_cues_.resize(people_.size());
+  for (auto& own : own_cues_) own.clear();
+  for (PartCue cue : cues) {
+    auto* owner = OwnerOf(cue);
+    if (owner == nullptr && cue.distance_m) {
+      cue.distance_m.reset();
+      owner = OwnerOf(cue);
+    }
+    (owner == nullptr ? free_cues_ : *owner).push_back(cue);
+  }
+}
+
+std::vector<PartCue>* PoseFitter::OwnerOf(const PartCue& cue) {
+  std::vector<PartCue>* owner = nullptr;
+  double least = 1.0;
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    const double reaches = people_[i]->Reaches(cue);
+    if (reaches > least) continue;
+    least = reaches;
+    owner = &own_cues_[i];
+  }
+  return owner;
+}
+
+// What limbs are on is no room, however long they stay there.
+void PoseFitter::LearnRoom(const std::vector<std::uint8_t>& is_sound, double seconds) {
+  occupied_.assign(view_.z_m().size(), 0);
+  for (const auto& person : people_) person->MarkLimbs(occupied_);
+  background_.Learn(view_, is_sound, occupied_, seconds);
+}
+
+void PoseFitter::FollowAll(const std::vector<std::uint8_t>& foreground, double seconds) {
   taken_.assign(view_.z_m().size(), 0);
   for (std::size_t i = 0; i < people_.size(); ++i) {
-    people_[i]->Follow(view_, floor_, taken_, seconds);
+    people_[i]->Follow(view_, floor_, {&taken_, &foreground, &own_cues_[i]}, seconds);
     Take(i);
   }
   const auto gone = [this](const auto& person) {
@@ -139,6 +181,7 @@ void PoseFitter::Conclude(double time_s) {
   people_.push_back(std::make_unique<FollowedPerson>(
       FollowSettings{config_.follow,
                      config_.start,
+                     config_.limbs,
                      config_.evidence,
                      {config_.method, config_.fit, config_.limb_icp},
                      config_.shape},

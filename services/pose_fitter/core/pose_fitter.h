@@ -10,9 +10,11 @@
 #include "common/images/depth_image.h"
 #include "services/pose_fitter/core/bodies/followed_person.h"
 #include "services/pose_fitter/core/bodies/person_body.h"
+#include "services/pose_fitter/core/cues/seen_parts.h"
 #include "services/pose_fitter/core/depth/depth_view.h"
 #include "services/pose_fitter/core/depth/sound_depth.h"
 #include "services/pose_fitter/core/floor/floor_tracker.h"
+#include "services/pose_fitter/core/people/background_model.h"
 #include "services/pose_fitter/core/people/people_finder.h"
 #include "services/pose_fitter/core/people/person_tracks.h"
 #include "services/pose_fitter/core/start/searched_places.h"
@@ -30,10 +32,13 @@ struct PoseFitterConfig {
   double most_taken = 0.3;        ///< Share of a region that those who are followed may have of it.
   SoundDepthConfig sound;
   FloorTrackerConfig floor;
+  BackgroundModelConfig background;
   PeopleFinderConfig people;
   PersonTracksConfig tracks;
   StarterConfig start;
+  SeenPartsConfig cues;
   FollowConfig follow;
+  LimbSearchConfig limbs;
   BodyEvidenceConfig evidence;
   BodyFitterConfig fit;    ///< By method articulated.
   LimbIcpConfig limb_icp;  ///< By method limb_icp.
@@ -50,10 +55,13 @@ struct PoseFitterConfig {
     v("most_taken", most_taken);
     v("sound", sound);
     v("floor", floor);
+    v("background", background);
     v("people", people);
     v("tracks", tracks);
     v("start", start);
+    v("cues", cues);
     v("follow", follow);
+    v("limbs", limbs);
     v("evidence", evidence);
     v("fit", fit);
     v("limb_icp", limb_icp);
@@ -73,12 +81,20 @@ class PoseFitter {
   const body_model::BodyPoses& Track(const images::DepthImage& image,
                                      const geometry::StereoCalibration& calibration);
 
+  /// Hands and faces recognised in the pictures, at any time before the image that they are to help
+  /// with.
+  void See(const scene::Hands& hands) { parts_.Update(hands); }
+  void See(const scene::Objects& objects) { parts_.Update(objects); }
+
   /// Models of all bodies of the last result.
   std::vector<body_model::PersonModel> Models() const;
 
  private:
   void Forget();
-  void FollowAll(double seconds);
+  void ShareCues(const std::vector<PartCue>& cues);
+  std::vector<PartCue>* OwnerOf(const PartCue& cue);  ///< nullptr = nobody.
+  void FollowAll(const std::vector<std::uint8_t>& foreground, double seconds);
+  void LearnRoom(const std::vector<std::uint8_t>& is_sound, double seconds);
   void FindNew(const std::vector<std::uint8_t>& is_sound, double time_s);
   void Meet(const PersonRegion& region, double time_s, Effort& effort);
   void Search(double time_s, Effort& effort);
@@ -95,11 +111,16 @@ class PoseFitter {
   SoundDepth sound_;
   FloorTracker floor_tracker_;
   std::optional<body_model::Floor> floor_;
+  BackgroundModel background_;
   PeopleFinder finder_;
   Starter starter_;
   PersonTracks tracks_;
+  SeenParts parts_;
+  std::vector<PartCue> free_cues_;              ///< Nobody's.
+  std::vector<std::vector<PartCue>> own_cues_;  ///< Of each of people_.
   std::vector<std::unique_ptr<FollowedPerson>> people_;
-  std::vector<std::uint8_t> taken_;  ///< Per pixel: 0 = nobody's, else 1 + the person's place.
+  std::vector<std::uint8_t> taken_;     ///< Per pixel: 0 = nobody's, else 1 + the person's place.
+  std::vector<std::uint8_t> occupied_;  ///< Per pixel: whether it is near to somebody's limbs.
   std::optional<Timestamp> last_time_;
   std::optional<double> last_search_s_;  ///< When all regions had been met.
   /// What is searched now.

@@ -95,8 +95,8 @@ void BodyEvidenceConfig::Validate() const {
 
 void BodyEvidence::Gather(const DepthView& view, body_model::Kinematics& kinematics,
                           const std::vector<const body_model::BodyPose*>& poses,
-                          const std::optional<body_model::Floor>& floor, const BodyMask& mask,
-                          double gate_m) {
+                          const std::optional<body_model::Floor>& floor,
+                          const ImageContext& context, double gate_m) {
   view_ = &view;
   floor_ = floor;
   body_.create(view.height_px(), view.width_px(), CV_8UC1);
@@ -106,10 +106,17 @@ void BodyEvidence::Gather(const DepthView& view, body_model::Kinematics& kinemat
     kinematics.Update(*pose);
     MarkBody(kinematics, gate_m);
   }
-  TakeOut(mask);
+  TakeOut(context);
+  foreground_ = context.foreground;
+  cues_.clear();
+  if (context.cues != nullptr) cues_ = *context.cues;
   RemoveIslands();
   MeasureClearance(kinematics.proximal_m(0).z());
   TakePoints();
+}
+
+bool BodyEvidence::IsAboveFloor(const Vector3d& point_m) const {
+  return !floor_ || floor_->normal.dot(point_m) + floor_->offset_m > config_.above_floor_m;
 }
 
 void BodyEvidence::MarkBody(const body_model::Kinematics& kinematics, double gate_m) {
@@ -126,13 +133,32 @@ void BodyEvidence::MarkBody(const body_model::Kinematics& kinematics, double gat
   }
 }
 
-void BodyEvidence::TakeOut(const BodyMask& mask) {
-  if (mask.taken == nullptr) return;
+void BodyEvidence::TakeOut(const ImageContext& context) {
   for (int v = box_.y; v < box_.y + box_.height; ++v) {
-    const auto first = static_cast<std::ptrdiff_t>(v) * view_->width_px() + box_.x;
-    const std::uint8_t* taken = mask.taken->data() + first;
-    auto* row = body_.ptr<std::uint8_t>(v) + box_.x;
-    for (int i = 0; i < box_.width; ++i) row[i] = taken[i] != 0 ? 0 : row[i];
+    auto* row = body_.ptr<std::uint8_t>(v);
+    for (int u = box_.x; u < box_.x + box_.width; ++u) {
+      if (row[u] != 0 && !context.MayBeBody(*view_, u, v)) row[u] = 0;
+    }
+  }
+}
+
+void BodyEvidence::MarkNear(const body_model::Kinematics& kinematics, double reach_m,
+                            std::vector<std::uint8_t>& pixels) const {
+  std::vector<std::uint8_t> is_near(static_cast<std::size_t>(view_->width_px()));
+  for (int limb = 0; limb < kinematics.model().limb_count(); ++limb) {
+    const Rod rod = RodOf(kinematics, limb);
+    const cv::Rect box = BoxOf(rod, reach_m, view_->camera());
+    const GatedRod gated = Gated(rod, reach_m);
+    for (int v = box.y; v < box.y + box.height; ++v) {
+      std::fill_n(is_near.begin(), box.width, std::uint8_t{0});
+      MarkRod(gated, RowAt(view_->camera(), box.x, v, std::nullopt, 0.0), view_->row_m(v) + box.x,
+              box.width, is_near.data());
+      const auto* body = body_.ptr<std::uint8_t>(v) + box.x;
+      auto* out = pixels.data() + static_cast<std::ptrdiff_t>(v) * view_->width_px() + box.x;
+      for (int i = 0; i < box.width; ++i) {
+        if (body[i] != 0 && is_near[static_cast<std::size_t>(i)] != 0) out[i] = 1;
+      }
+    }
   }
 }
 

@@ -118,6 +118,7 @@ BodyFitter::BodyFitter(const BodyFitterConfig& config, const body_model::BodyMod
       freedoms_(FreedomsOf(config, model)),
       trunk_(TrunkOf(model)),
       outline_(config.outline, model),
+      cues_(config.cues, model),
       limb_equations_(model.limb_count()) {
   const auto count = static_cast<std::size_t>(model.limb_count());
   surfaces_.resize(count);
@@ -158,6 +159,7 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
       limb_equations_.Add(limb, sums_[static_cast<std::size_t>(limb)], weight);
     }
     outline_.AddTo(evidence, kinematics_, config_.point_weight, limb_equations_);
+    cues_.AddTo(evidence.cues(), kinematics_, 1.0, limb_equations_);
     AddFloor(floor);
     limb_equations_.AddTo(kinematics_, equations_);
     AddPriors(pose, predicted, seconds);
@@ -182,6 +184,13 @@ void BodyFitter::Thin(const BodyPoints& points) {
     thin_.Add({points.x_m[k], points.y_m[k], points.z_m[k]}, points.sigma_z_m[k]);
   }
   thin_.EndBlock();
+}
+
+const FitResult& BodyFitter::Judge(const BodyEvidence& evidence, const body_model::BodyPose& pose) {
+  kinematics_.Update(pose);
+  limb_equations_.SetZero(kinematics_.proximal_m(0));
+  Judge(evidence);
+  return result_;
 }
 
 void BodyFitter::PlaceLimbs() {
@@ -374,6 +383,8 @@ void BodyFitter::Judge(const BodyEvidence& evidence) {
     cost += static_cast<double>(sums_[k].values[27]);
   }
   Score(trunk_, points.count(), explained, cost, result_);
+  result_.cue_cost = cues_.Cost(evidence.cues(), kinematics_);
+  result_.cue_of_hand = cues_.cue_of_hand();
 }
 
 }  // namespace deixis::pose_fitter

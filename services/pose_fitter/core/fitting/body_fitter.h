@@ -9,6 +9,7 @@
 #include "common/body_model/body_model.h"
 #include "common/body_model/kinematics.h"
 #include "services/pose_fitter/core/fitting/body_evidence.h"
+#include "services/pose_fitter/core/fitting/cue_term.h"
 #include "services/pose_fitter/core/fitting/limb_equations.h"
 #include "services/pose_fitter/core/fitting/outline_term.h"
 #include "services/pose_fitter/core/fitting/pose_method.h"
@@ -48,6 +49,7 @@ struct BodyFitterConfig {
   double upright_rad = 10.0;      ///< Spread of the base limb about the vertical; 10 = none.
   double limit_rad = 0.03;        ///< Spread of angles beyond their limits.
   OutlineConfig outline;
+  CueConfig cues;
   std::vector<JointFreedom> joints{
       {"abdomen", 0.06, 0.20},  {"chest", 0.06, 0.20},    {"neck", 0.10, 0.25},
       {"head", 0.12, 0.40},     {"clavicle", 0.08, 0.15}, {"upper_arm", 0.22, 2.0},
@@ -73,6 +75,7 @@ struct BodyFitterConfig {
     v("upright_rad", upright_rad);
     v("limit_rad", limit_rad);
     v("outline", outline);
+    v("cues", cues);
     v("joints", joints);
   }
   void Validate() const;  ///< Throws FaultsFound.
@@ -98,6 +101,9 @@ class BodyFitter final : public PoseMethod {
   const FitResult& Fit(const BodyEvidence& evidence, const std::optional<body_model::Floor>& floor,
                        const body_model::BodyPose& predicted, std::optional<double> seconds,
                        body_model::BodyPose& pose) override;
+
+  /// How well a pose explains the evidence as it is. Holds until the next fit.
+  const FitResult& Judge(const BodyEvidence& evidence, const body_model::BodyPose& pose);
 
   body_model::Kinematics& kinematics() { return kinematics_; }
   const Eigen::MatrixXd& information() const override { return equations_.information; }
@@ -125,6 +131,7 @@ class BodyFitter final : public PoseMethod {
   std::vector<JointFreedom> freedoms_;  ///< Of each limb.
   std::vector<int> trunk_;
   OutlineTerm outline_;
+  CueTerm cues_;
   LimbEquations limb_equations_;
   BodyEquations equations_;
   Eigen::LDLT<Eigen::MatrixXd> factors_;

@@ -137,7 +137,8 @@ LimbView OutlineTerm::Look(const BodyEvidence& evidence, const body_model::Kinem
     } else if (z_m > point_m.z() + near_m) {
       ++view.free;
     } else {
-      ++view.seen;
+      // What lies just behind a piece of the room is hidden by it.
+      ++(evidence.IsRoom(at.u, at.v) ? view.hidden : view.seen);
     }
   }
   return view;
