@@ -142,18 +142,16 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
         config_.first_scale_m * std::pow(config_.last_scale_m / config_.first_scale_m, share);
     const double reach_m =
         config_.first_reach_m * std::pow(config_.last_reach_m / config_.first_reach_m, share);
-    const bool is_rough = 3 * round < 2 * config_.iterations && thin_.count() > 0;
-    const BodyPoints& points = is_rough ? thin_ : evidence.points();
+    const bool is_rough = 3 * round < 2 * config_.iterations;
+    const BodyPoints& points = is_rough && thin_.count() > 0 ? thin_ : evidence.points();
     const double weight =
         config_.point_weight * std::min(1.0, config_.counted_points / std::max(1, points.count()));
     kinematics_.Update(pose);
     equations_.SetZero(6 + model_->angle_count());
     limb_equations_.SetZero(kinematics_.proximal_m(0));
     PlaceLimbs();
-    // Points rarely change their limbs: where each belongs is asked in every other round.
-    if (round % 2 == 0 || points.count() != static_cast<int>(winners_.size())) {
-      Assign(points, reach_m);
-    }
+    // At first, where each point belongs is asked in every other round.
+    if (!is_rough || round % 2 == 0) Assign(points, reach_m);
     AddPoints(scale_m);
     for (int limb = 0; limb < model_->limb_count(); ++limb) {
       limb_equations_.Add(limb, sums_[static_cast<std::size_t>(limb)], weight);
