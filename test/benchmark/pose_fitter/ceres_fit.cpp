@@ -19,7 +19,7 @@ using body_model::BodyPose;
 using Eigen::Vector3d;
 
 constexpr int kStride = 12;  // Derivatives per pass: a leg's or an arm's chain takes two.
-constexpr int kTries = 10;  // Of one step.
+constexpr int kTries = 10;   // Of one step.
 constexpr double kSigma_m = 0.01, kRest_rad = 0.05;
 
 /// A measured point, and the plane of its limb's surface that it should lie in, limb's frame.

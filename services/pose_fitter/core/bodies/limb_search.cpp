@@ -137,15 +137,25 @@ void LimbSearch::Shortlist(const std::optional<body_model::Floor>& floor) {
   places_ = std::move(kept);
 }
 
+Hypothesis LimbSearch::Fitted(const std::optional<body_model::Floor>& floor, const Hypothesis& now,
+                              const BodyPose& place) {
+  Hypothesis other = now;
+  other.pose = place;
+  other.result = whole_.Fit(around_, floor, place, std::nullopt, other.pose);
+  other.information = whole_.information();
+  return other;
+}
+
 std::optional<Hypothesis> LimbSearch::BestOf(const std::optional<body_model::Floor>& floor,
                                              const Hypothesis& now) {
+  // Another place must be better than this one, too, with the same freedom to move.
   double least = ScoreOf(whole_.Judge(around_, now.pose)) - config_.better;
   std::optional<Hypothesis> found;
+  Hypothesis same = Fitted(floor, now, now.pose);
+  if (ScoreOf(same.result) < least) found = same;
+  least = std::min(least, ScoreOf(same.result) - config_.better);
   for (const BodyPose& place : places_) {
-    Hypothesis other = now;
-    other.pose = place;
-    other.result = whole_.Fit(around_, floor, place, std::nullopt, other.pose);
-    other.information = whole_.information();
+    Hypothesis other = Fitted(floor, now, place);
     const double score = ScoreOf(other.result);
     if (score > least) continue;
     least = score;
@@ -166,7 +176,6 @@ bool LimbSearch::FindPlaces(const BodyEvidence& evidence,
   if (!is_doubtful && !is_recognised && !hangs) return false;
   const Vector3d up = floor ? floor->normal : Vector3d(-Vector3d::UnitY());
   Add(UsualPoses(*model_, limbs, now.pose, up));
-  Add({now.pose});
   return true;
 }
 

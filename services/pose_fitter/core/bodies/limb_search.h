@@ -63,6 +63,8 @@ class LimbSearch {
   void Shortlist(const std::optional<body_model::Floor>& floor);
   std::optional<Hypothesis> BestOf(const std::optional<body_model::Floor>& floor,
                                    const Hypothesis& now);
+  Hypothesis Fitted(const std::optional<body_model::Floor>& floor, const Hypothesis& now,
+                    const body_model::BodyPose& place);
   double ScoreOf(const FitResult& result) const;
 
   LimbSearchConfig config_;

@@ -106,7 +106,8 @@ void BodyEvidence::Gather(const DepthView& view, body_model::Kinematics& kinemat
     kinematics.Update(*pose);
     MarkBody(kinematics, gate_m);
   }
-  TakeOut(context);
+  TakeOut(context.taken, true);
+  TakeOut(context.foreground, false);
   foreground_ = context.foreground;
   cues_.clear();
   if (context.cues != nullptr) cues_ = *context.cues;
@@ -133,31 +134,26 @@ void BodyEvidence::MarkBody(const body_model::Kinematics& kinematics, double gat
   }
 }
 
-void BodyEvidence::TakeOut(const ImageContext& context) {
+void BodyEvidence::TakeOut(const std::vector<std::uint8_t>* pixels, bool where_set) {
+  if (pixels == nullptr) return;
   for (int v = box_.y; v < box_.y + box_.height; ++v) {
-    auto* row = body_.ptr<std::uint8_t>(v);
-    for (int u = box_.x; u < box_.x + box_.width; ++u) {
-      if (row[u] != 0 && !context.MayBeBody(*view_, u, v)) row[u] = 0;
-    }
+    const auto first = static_cast<std::ptrdiff_t>(v) * view_->width_px() + box_.x;
+    const std::uint8_t* marks = pixels->data() + first;
+    auto* row = body_.ptr<std::uint8_t>(v) + box_.x;
+    for (int i = 0; i < box_.width; ++i) row[i] = (marks[i] != 0) == where_set ? 0 : row[i];
   }
 }
 
 void BodyEvidence::MarkNear(const body_model::Kinematics& kinematics, double reach_m,
                             std::vector<std::uint8_t>& pixels) const {
-  std::vector<std::uint8_t> is_near(static_cast<std::size_t>(view_->width_px()));
   for (int limb = 0; limb < kinematics.model().limb_count(); ++limb) {
     const Rod rod = RodOf(kinematics, limb);
     const cv::Rect box = BoxOf(rod, reach_m, view_->camera());
     const GatedRod gated = Gated(rod, reach_m);
     for (int v = box.y; v < box.y + box.height; ++v) {
-      std::fill_n(is_near.begin(), box.width, std::uint8_t{0});
-      MarkRod(gated, RowAt(view_->camera(), box.x, v, std::nullopt, 0.0), view_->row_m(v) + box.x,
-              box.width, is_near.data());
-      const auto* body = body_.ptr<std::uint8_t>(v) + box.x;
-      auto* out = pixels.data() + static_cast<std::ptrdiff_t>(v) * view_->width_px() + box.x;
-      for (int i = 0; i < box.width; ++i) {
-        if (body[i] != 0 && is_near[static_cast<std::size_t>(i)] != 0) out[i] = 1;
-      }
+      MarkRod(gated, RowAt(view_->camera(), box.x, v, floor_, config_.above_floor_m),
+              view_->row_m(v) + box.x, box.width,
+              pixels.data() + static_cast<std::ptrdiff_t>(v) * view_->width_px() + box.x);
     }
   }
 }

@@ -58,7 +58,7 @@ class BodyEvidence {
               const std::optional<body_model::Floor>& floor, const ImageContext& context,
               double gate_m);
 
-  /// Sets the body's pixels that are within `reach_m` of the limbs of `kinematics`.
+  /// Sets the pixels whose points are within `reach_m` of the limbs of `kinematics`.
   void MarkNear(const body_model::Kinematics& kinematics, double reach_m,
                 std::vector<std::uint8_t>& pixels) const;
 
@@ -81,7 +81,8 @@ class BodyEvidence {
 
  private:
   void MarkBody(const body_model::Kinematics& kinematics, double gate_m);
-  void TakeOut(const ImageContext& context);
+  /// Takes out the pixels whose mark is set, or is not; nullptr = none.
+  void TakeOut(const std::vector<std::uint8_t>* pixels, bool where_set);
   void RemoveIslands();
   void MeasureClearance(double root_z_m);
   void TakePoints();
