@@ -67,6 +67,7 @@ void PoseFitter::ShareCues(const std::vector<PartCue>& cues) {
     auto* owner = OwnerOf(cue);
     if (owner == nullptr && cue.distance_m) {
       cue.distance_m.reset();
+      cue.trust = std::min(cue.trust, config_.cues.elsewhere_trust);
       owner = OwnerOf(cue);
     }
     (owner == nullptr ? free_cues_ : *owner).push_back(cue);

@@ -52,7 +52,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="write films (MP4) and pictures (PNG) of the limbs fitted to stereo sequences")
     parser.add_argument("--columns", choices=(*COLUMNS, "both"), default="both",
                         help="what is told of the people (default: both, one after the other)")
-    parser.add_argument("--hands", action="store_true", help="let the fitter hear of hands and faces, too")
+    parser.add_argument("--hands", action=argparse.BooleanOptionalAction, default=True,
+                        help="let the fitter hear of hands and faces, as the group stereo does (default: yes)")
     parser.add_argument("--together", action="store_true",
                         help="run stereo driver and fitter in one process, so that the driver hears of the bodies")
     parser.add_argument("--depth-cache", type=Path, metavar="DIR",

@@ -13,7 +13,7 @@ namespace deixis::pose_fitter {
 struct LimbSearchConfig {
   double period_s = 0.1;    ///< Between two searches.
   double better = 0.03;     ///< By which another place must be better.
-  double cue_share = 0.05;  ///< Of the score, for each recognised hand or face that is elsewhere.
+  double cue_share = 0.03;  ///< Of the score, for each recognised hand or face that is elsewhere.
   double cue_m = 0.08;      ///< A hand recognised farther from the body's tells of another place.
   int points = 500;         ///< By which places are compared,
   int iterations = 5;       ///< and rounds;

@@ -65,6 +65,8 @@ void SeenPartsConfig::Validate() const {
   faults.Require(merged_trust >= 0.0 && merged_trust <= 1.0, "merged_trust", "must be 0..1");
   faults.Require(face_trust >= 0.0 && face_trust <= 1.0, "face_trust", "must be 0..1");
   faults.Require(face_m >= 0.0, "face_m", "must not be negative");
+  faults.Require(elsewhere_trust >= 0.0 && elsewhere_trust <= 1.0, "elsewhere_trust",
+                 "must be 0..1");
   faults.Require(acceleration_px_per_s2 >= 0.0, "acceleration_px_per_s2", "must not be negative");
   faults.ThrowIfAny();
 }

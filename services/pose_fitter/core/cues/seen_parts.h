@@ -10,12 +10,13 @@
 namespace deixis::pose_fitter {
 
 struct SeenPartsConfig {
-  double oldest_s = 0.2;      ///< Hands and faces seen longer ago do not count.
-  double hand_px = 6.0;       ///< Error of a tracked hand beside what the tracker states,
-  double face_px = 4.0;       ///< and of a face's centre; pixels of the published picture.
-  double merged_trust = 0.5;  ///< In a hand that shares a region with something.
-  double face_trust = 0.1;    ///< In a hand at a face: it may be the face's own skin.
-  double face_m = 0.15;       ///< So near to its middle is at a face.
+  double oldest_s = 0.2;         ///< Hands and faces seen longer ago do not count.
+  double hand_px = 6.0;          ///< Error of a tracked hand beside what the tracker states,
+  double face_px = 4.0;          ///< and of a face's centre; pixels of the published picture.
+  double merged_trust = 0.5;     ///< In a hand that shares a region with something.
+  double face_trust = 0.1;       ///< In a hand at a face: it may be the face's own skin.
+  double face_m = 0.15;          ///< So near to its middle is at a face.
+  double elsewhere_trust = 0.2;  ///< In what is measured out of everybody's reach.
   double acceleration_px_per_s2 = 1500.0;  ///< One sigma of what moves on since it was seen.
 
   template <typename Visitor>
@@ -26,6 +27,7 @@ struct SeenPartsConfig {
     v("merged_trust", merged_trust);
     v("face_trust", face_trust);
     v("face_m", face_m);
+    v("elsewhere_trust", elsewhere_trust);
     v("acceleration_px_per_s2", acceleration_px_per_s2);
   }
   void Validate() const;  ///< Throws FaultsFound.

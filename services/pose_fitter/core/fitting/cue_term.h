@@ -11,10 +11,10 @@
 namespace deixis::pose_fitter {
 
 struct CueConfig {
-  double hand_weight = 2.0;     ///< Of a hand's cue: this many independent points.
+  double hand_weight = 1.0;     ///< Of a hand's cue: this many independent points.
   double face_weight = 2.0;     ///< Of a face's.
   double body_sigma_m = 0.025;  ///< Spread of the part's middle on the body, one sigma.
-  double most_m = 0.15;         ///< A cue farther from its part than this pulls less and less.
+  double most_m = 0.10;         ///< A cue farther from its part than this pulls less and less.
   double side_cost = 0.05;      ///< Of a hand that is taken for the other side's, at most.
 
   template <typename Visitor>
