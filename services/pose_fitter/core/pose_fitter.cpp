@@ -8,7 +8,7 @@ namespace deixis::pose_fitter {
 namespace {
 
 constexpr std::size_t kMostPeople = 32;
-constexpr int kAlone = 4;  // While nobody is followed, there is so much more effort to find people.
+constexpr int kAlone = 6;  // While nobody is followed, there is so much more effort to find people.
 constexpr double kShortest_m = 1.4, kTallest_m = 2.05;  // Statures that a head's height may tell.
 
 }  // namespace

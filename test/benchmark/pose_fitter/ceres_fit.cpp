@@ -19,6 +19,7 @@ using body_model::BodyPose;
 using Eigen::Vector3d;
 
 constexpr int kStride = 12;  // Derivatives per pass: a leg's or an arm's chain takes two.
+constexpr int kTries = 10;   // Of one step.
 constexpr double kSigma_m = 0.01, kRest_rad = 0.05;
 
 /// A measured point, and the plane of its limb's surface that it should lie in, limb's frame.
@@ -137,6 +138,16 @@ void AddRest(const BodyModel& model, BodyPose& pose, ceres::Problem& problem) {
   }
 }
 
+/// One good step per association; one that is refused only makes the region of trust smaller.
+class AfterOneStep final : public ceres::IterationCallback {
+ public:
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    return summary.iteration > 0 && summary.step_is_successful
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
+  }
+};
+
 void Step(const BodyModel& model, std::vector<LimbCost> costs, BodyPose& pose) {
   Eigen::Matrix<double, 6, 1> root = Eigen::Matrix<double, 6, 1>::Zero();
   root.head<3>() = pose.frame_from_root.translation_m;
@@ -167,8 +178,10 @@ void Step(const BodyModel& model, std::vector<LimbCost> costs, BodyPose& pose) {
   AddRest(model, pose, problem);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = 1;
+  options.max_num_iterations = kTries;
   options.initial_trust_region_radius = 50.0;
+  AfterOneStep stop;
+  options.callbacks.push_back(&stop);
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);

@@ -88,7 +88,7 @@ TEST_F(BodyEvidenceTest, LeavesOutIslands) {
 
 TEST_F(BodyEvidenceTest, SpreadsItsPointsOverTheBody) {
   Gather();
-  EXPECT_NEAR(evidence_.points().count(), std::min(1500, evidence_.pixel_count()), 75);
+  EXPECT_NEAR(evidence_.points().count(), std::min(2000, evidence_.pixel_count()), 100);
   int in_blocks = 0;
   for (const PointBlock& block : evidence_.points().blocks) {
     for (int i = block.first; i < block.first + block.count; ++i) {

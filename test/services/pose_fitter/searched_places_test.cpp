@@ -29,7 +29,7 @@ TEST(SearchedPlaces, WaitsLongerAfterEachSearchInVainButNotForEver) {
     longest_s = std::max(longest_s, wait_s);
     time_s += wait_s;
   }
-  EXPECT_NEAR(longest_s, 1.2, 0.02);
+  EXPECT_NEAR(longest_s, 0.6, 0.02);
   places.NoteFound(kCupboard_m, time_s);
   EXPECT_TRUE(places.IsDue(kCupboard_m, time_s + 0.31));
 }

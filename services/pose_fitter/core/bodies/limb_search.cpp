@@ -184,6 +184,7 @@ std::optional<Hypothesis> LimbSearch::Find(const BodyEvidence& evidence,
                                            const ImageContext& context, double seconds,
                                            const Hypothesis& now) {
   since_s_ += seconds;
+  if (!places_.empty()) return Decide(evidence, floor, context, now);
   if (since_s_ < config_.period_s) return std::nullopt;
   since_s_ = 0.0;
   kinematics_.Update(now.pose);
@@ -192,11 +193,22 @@ std::optional<Hypothesis> LimbSearch::Find(const BodyEvidence& evidence,
     if (!FindPlaces(evidence, floor, context, limbs, now)) continue;
     next_ = (next_ + i + 1) % chains_.size();
     Gather(evidence.view(), floor, context, now, few_);
-    Gather(evidence.view(), floor, context, now, around_);
     Shortlist(floor);
-    return BestOf(floor, now);
+    return std::nullopt;
   }
+  places_.clear();
   return std::nullopt;
+}
+
+// In the image after that of the shortlist, so that none has both to do.
+std::optional<Hypothesis> LimbSearch::Decide(const BodyEvidence& evidence,
+                                             const std::optional<body_model::Floor>& floor,
+                                             const ImageContext& context, const Hypothesis& now) {
+  for (BodyPose& place : places_) place.frame_from_root = now.pose.frame_from_root;
+  Gather(evidence.view(), floor, context, now, around_);
+  auto found = BestOf(floor, now);
+  places_.clear();
+  return found;
 }
 
 }  // namespace deixis::pose_fitter

@@ -44,7 +44,8 @@ class LimbSearch {
              const BodyFitterConfig& fit, const body_model::BodyModel& model);
 
   /// The body with a limb in a place that explains the image better than `now`, if there is one;
-  /// one limb at a time, `seconds` after the last call. `evidence`: that of `now`.
+  /// one limb at a time, `seconds` after the last call. `evidence`: that of `now`. A search takes
+  /// two calls: the first finds a few places, the next one fits them.
   std::optional<Hypothesis> Find(const BodyEvidence& evidence,
                                  const std::optional<body_model::Floor>& floor,
                                  const ImageContext& context, double seconds,
@@ -63,6 +64,9 @@ class LimbSearch {
   void Shortlist(const std::optional<body_model::Floor>& floor);
   std::optional<Hypothesis> BestOf(const std::optional<body_model::Floor>& floor,
                                    const Hypothesis& now);
+  std::optional<Hypothesis> Decide(const BodyEvidence& evidence,
+                                   const std::optional<body_model::Floor>& floor,
+                                   const ImageContext& context, const Hypothesis& now);
   Hypothesis Fitted(const std::optional<body_model::Floor>& floor, const Hypothesis& now,
                     const body_model::BodyPose& place);
   double ScoreOf(const FitResult& result) const;

@@ -16,7 +16,7 @@ namespace deixis::pose_fitter {
 struct BodyEvidenceConfig {
   double gate_m = 0.12;         ///< Pixels this near to the predicted body may belong to it.
   double above_floor_m = 0.04;  ///< Lower ones are the floor's.
-  int points = 1500;      ///< That the fit uses at most, about, spread over the body's pixels.
+  int points = 2000;      ///< That the fit uses at most, about, spread over the body's pixels.
   double behind_m = 0.3;  ///< Background is what lies no further than this before the root.
 
   template <typename Visitor>

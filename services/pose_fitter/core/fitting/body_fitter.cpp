@@ -92,6 +92,7 @@ void JointFreedom::Validate() const {
 void BodyFitterConfig::Validate() const {
   config::Faults faults;
   faults.Require(iterations >= 1 && iterations <= 1000, "iterations", "must be 1..1000");
+  faults.Require(first_points >= 100, "first_points", "must be at least 100");
   const auto positive = [&faults](double value, const char* key) {
     faults.Require(value > 0.0, key, "must be positive");
   };
@@ -133,9 +134,7 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
                                  const std::optional<body_model::Floor>& floor,
                                  const body_model::BodyPose& predicted,
                                  std::optional<double> seconds, body_model::BodyPose& pose) {
-  const BodyPoints& points = evidence.points();
-  const double weight =
-      config_.point_weight * std::min(1.0, config_.counted_points / std::max(1, points.count()));
+  Thin(evidence.points());
   for (int round = 0; round < config_.iterations; ++round) {
     const double share =
         config_.iterations > 1 ? static_cast<double>(round) / (config_.iterations - 1) : 1.0;
@@ -143,12 +142,16 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
         config_.first_scale_m * std::pow(config_.last_scale_m / config_.first_scale_m, share);
     const double reach_m =
         config_.first_reach_m * std::pow(config_.last_reach_m / config_.first_reach_m, share);
+    const bool is_rough = 3 * round < 2 * config_.iterations;
+    const BodyPoints& points = is_rough && thin_.count() > 0 ? thin_ : evidence.points();
+    const double weight =
+        config_.point_weight * std::min(1.0, config_.counted_points / std::max(1, points.count()));
     kinematics_.Update(pose);
     equations_.SetZero(6 + model_->angle_count());
     limb_equations_.SetZero(kinematics_.proximal_m(0));
     PlaceLimbs();
-    // Points rarely change their limbs: where each belongs is asked in every other round.
-    if (round % 2 == 0) Assign(points, reach_m);
+    // At first, where each point belongs is asked in every other round.
+    if (!is_rough || round % 2 == 0) Assign(points, reach_m);
     AddPoints(scale_m);
     for (int limb = 0; limb < model_->limb_count(); ++limb) {
       limb_equations_.Add(limb, sums_[static_cast<std::size_t>(limb)], weight);
@@ -167,6 +170,18 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
   kinematics_.Update(pose);
   Judge(evidence);
   return result_;
+}
+
+// What the first rounds take of many points; nothing when all are few.
+void BodyFitter::Thin(const BodyPoints& points) {
+  thin_.Clear();
+  const int step = points.count() / config_.first_points;
+  if (step < 2) return;
+  for (int i = 0; i < points.count(); i += step) {
+    const auto k = static_cast<std::size_t>(i);
+    thin_.Add({points.x_m[k], points.y_m[k], points.z_m[k]}, points.sigma_z_m[k]);
+  }
+  thin_.EndBlock();
 }
 
 const FitResult& BodyFitter::Judge(const BodyEvidence& evidence, const body_model::BodyPose& pose) {

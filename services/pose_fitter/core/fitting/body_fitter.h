@@ -32,9 +32,10 @@ struct JointFreedom {
 };
 
 struct BodyFitterConfig {
-  int iterations = 12;            ///< Of each fit.
-  double first_scale_m = 0.10;    ///< Of the robust weights, in the first round ...
-  double last_scale_m = 0.03;     ///< ... and in the last.
+  int iterations = 12;          ///< Of each fit.
+  int first_points = 1500;      ///< From twice as many on, the first two thirds of them take fewer.
+  double first_scale_m = 0.10;  ///< Of the robust weights, in the first round ...
+  double last_scale_m = 0.03;   ///< ... and in the last.
   double judged_scale_m = 0.02;   ///< By which a fit is judged against others.
   double first_reach_m = 0.25;    ///< Points farther from all limbs do not count, in the first ...
   double last_reach_m = 0.10;     ///< ... and in the last round.
@@ -58,6 +59,7 @@ struct BodyFitterConfig {
   template <typename Visitor>
   void Visit(Visitor& v) {
     v("iterations", iterations);
+    v("first_points", first_points);
     v("first_scale_m", first_scale_m);
     v("last_scale_m", last_scale_m);
     v("judged_scale_m", judged_scale_m);
@@ -108,6 +110,7 @@ class BodyFitter final : public PoseMethod {
   const std::vector<int>& winners() const override { return winners_; }
 
  private:
+  void Thin(const BodyPoints& points);
   void PlaceLimbs();
   void Assign(const BodyPoints& points, double reach_m);
   void AssignBlock(const BodyPoints& points, const PointBlock& block, float reach_m);
@@ -138,6 +141,7 @@ class BodyFitter final : public PoseMethod {
   std::vector<std::pair<float, int>> near_;  ///< Limbs near a block: how far, which.
   std::vector<float> scores2_;               ///< Of each point, squared.
   std::vector<int> winners_;
+  BodyPoints thin_;
   BodyPoints sorted_;
   std::vector<int> first_of_limb_;  ///< Among sorted_.
   std::vector<int> next_of_limb_;   ///< Likewise, while sorting.

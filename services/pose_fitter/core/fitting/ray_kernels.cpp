@@ -81,7 +81,7 @@ struct Root {
   const Taper taper = TaperOf(limb, slopes, m.dx, m.dy, m.dz);
   const float u0 = taper.u0, u1 = taper.u1, v0 = taper.v0, v1 = taper.v1;
   Root root{z, 0.0F};
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 2; ++round) {
     const float at = Within(o[2] + root.t * m.dz, 0.0F, limb.length_m);
     root = FrontRoot(taper, limb.a0_m + ka * at, limb.b0_m + kb * at);
   }
@@ -94,10 +94,10 @@ struct Root {
   const float safe_dz = std::abs(m.dz) < 1e-6F ? 1e-6F : m.dz;
   const float td = (end - o[2]) / safe_dz;
   const float ea = limb.a0_m + ka * end, eb = limb.b0_m + kb * end;
-  const float du = (u0 + td * u1) / ea, dv = (v0 + td * v1) / eb;
+  const float du = (u0 + td * u1) * eb, dv = (v0 + td * v1) * ea;
   const float outwards = beyond ? 1.0F : -1.0F;
   const bool faces = outwards * m.dz < 0.0F;
-  const bool on_disc = (before | beyond) & faces & (du * du + dv * dv <= 1.0F);
+  const bool on_disc = (before | beyond) & faces & (du * du + dv * dv <= ea * ea * eb * eb);
   const float beside_ends = (before | beyond) ? 0.0F : root.exists;
   m.meets = on_disc ? 1.0F : beside_ends;
   m.depth_m = on_disc ? td : t;
@@ -110,30 +110,25 @@ struct Root {
   const float a = limb.a0_m + ka * h, b = limb.b0_m + kb * h;
   const float u = o[0] + at * m.dx - limb.x0_m - kx * h;
   const float v = o[1] + at * m.dy - limb.y0_m - ky * h;
-  const float ua = u / a, vb = v / b;
+  const float inverse_ab = 1.0F / (a * b);
+  const float inverse_a = b * inverse_ab, inverse_b = a * inverse_ab;
+  const float ua = u * inverse_a, vb = v * inverse_b;
   const float norm = std::sqrt(ua * ua + vb * vb) + 1e-9F;
-  const float outward = std::sqrt(u * u + v * v);
-  const float beside = Larger(outward - outward / norm, 0.0F);
+  const float beside = Larger(std::sqrt(u * u + v * v) * (1.0F - 1.0F / norm), 0.0F);
   const float axial = pz - s;
-  const float distance = std::sqrt(beside * beside + axial * axial);
-  m.distance_m = distance;
+  m.distance_m = std::sqrt(beside * beside + axial * axial);
   // Side normal at height h: gradient of the implicit ellipse, with its taper and slant.
-  float gx = ua / a, gy = vb / b;
-  const float unit = 1.0F / norm;
-  float gz = -(gx * kx + gy * ky) - (ua * ua * ka / a + vb * vb * kb / b);
-  gx *= unit, gy *= unit, gz *= unit;
+  float gx = ua * inverse_a, gy = vb * inverse_b;
+  float gz = -(gx * kx + gy * ky) - (ua * gx * ka + vb * gy * kb);
   // Beyond the ends of a limb that is passed by: away from its rim.
   const float ring = std::sqrt(gx * gx + gy * gy) + 1e-9F;
-  const float inverse_distance = 1.0F / (distance + 1e-6F);
-  const float rim_x = beside * inverse_distance * gx / ring;
-  const float rim_y = beside * inverse_distance * gy / ring;
-  const float rim_z = axial * inverse_distance;
   const float past = (1.0F - m.meets) * std::abs(axial);
   const bool rim = past > 1e-6F;
-  gx = on_disc ? 0.0F : (rim ? rim_x : gx);
-  gy = on_disc ? 0.0F : (rim ? rim_y : gy);
-  gz = on_disc ? outwards : (rim ? rim_z : gz);
-  const float inverse = 1.0F / (std::sqrt(gx * gx + gy * gy + gz * gz) + 1e-9F);
+  const float sideways = rim ? beside : 1.0F;
+  gx = on_disc ? 0.0F : sideways * gx;
+  gy = on_disc ? 0.0F : sideways * gy;
+  gz = on_disc ? outwards : (rim ? ring * axial : gz);
+  const float inverse = 1.0F / (std::sqrt(gx * gx + gy * gy + gz * gz) + 1e-12F);
   m.nx = gx * inverse;
   m.ny = gy * inverse;
   m.nz = gz * inverse;
@@ -196,17 +191,23 @@ struct Root {
   }
 }
 
-[[gnu::always_inline]] inline void Sum(const LimbSurface& limb, const SumSettings& settings,
-                                       const float* __restrict x, const float* __restrict y,
-                                       const float* __restrict z, const float* __restrict sigma,
-                                       int count, float* __restrict out) {
+/// Points of one limb, as they go into its sums.
+struct Pulls {
+  static constexpr int kCount = 256;
+  float vx[kCount], vy[kCount], vz[kCount];  // Moment of the normal about the root.
+  float nx[kCount], ny[kCount], nz[kCount];
+  float weight[kCount], residual[kCount], cost[kCount];
+};
+
+[[gnu::always_inline]] inline void FindPulls(const LimbSurface& limb, const SumSettings& settings,
+                                             const float* __restrict x, const float* __restrict y,
+                                             const float* __restrict z,
+                                             const float* __restrict sigma, int count,
+                                             Pulls& __restrict pulls) {
   const float* r = limb.camera_from_limb;
   const float scale2 = settings.scale_m * settings.scale_m;
   const float across2 = settings.across_m * settings.across_m;
   const float cx = settings.root_m[0], cy = settings.root_m[1], cz = settings.root_m[2];
-  float s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, s5 = 0, s6 = 0, s7 = 0, s8 = 0, s9 = 0, s10 = 0,
-        s11 = 0, s12 = 0, s13 = 0, s14 = 0, s15 = 0, s16 = 0, s17 = 0, s18 = 0, s19 = 0, s20 = 0,
-        s21 = 0, s22 = 0, s23 = 0, s24 = 0, s25 = 0, s26 = 0, s27 = 0, s28 = 0, s29 = 0;
   for (int i = 0; i < count; ++i) {
     const Meeting m = Meet(limb, x[i], y[i], z[i]);
     const bool met = m.meets > 0.5F;
@@ -215,16 +216,38 @@ struct Root {
     const float nz = r[6] * m.nx + r[7] * m.ny + r[8] * m.nz;
     const float inverse_z = 1.0F / z[i];
     // How much of a step in depth goes along the normal.
-    const float share = nx * x[i] * inverse_z + ny * y[i] * inverse_z + nz;
+    const float share = (nx * x[i] + ny * y[i]) * inverse_z + nz;
     const float residual = met ? (z[i] - m.depth_m) * share : m.distance_m;
     const float variance = share * share * sigma[i] * sigma[i] + across2;
-    const float robust = scale2 / (scale2 + residual * residual);
-    const float w = robust * robust / variance;
+    const float spread2 = scale2 + residual * residual;
+    const float inverse = scale2 / (spread2 * variance);  // Of robust weight and variance at once.
+    const float robust = inverse * variance;
     const float ratio = m.depth_m * inverse_z;
     const float px = (met ? x[i] * ratio : x[i] - residual * nx) - cx;
     const float py = (met ? y[i] * ratio : y[i] - residual * ny) - cy;
     const float pz = (met ? m.depth_m : z[i] - residual * nz) - cz;
-    const float v0 = py * nz - pz * ny, v1 = pz * nx - px * nz, v2 = px * ny - py * nx;
+    pulls.vx[i] = py * nz - pz * ny;
+    pulls.vy[i] = pz * nx - px * nz;
+    pulls.vz[i] = px * ny - py * nx;
+    pulls.nx[i] = nx;
+    pulls.ny[i] = ny;
+    pulls.nz[i] = nz;
+    pulls.weight[i] = robust * inverse;
+    pulls.residual[i] = residual;
+    pulls.cost[i] = 1.0F - robust;
+  }
+}
+
+/// Apart from finding them: all sums have a register then.
+[[gnu::always_inline]] inline void AddPulls(const Pulls& __restrict pulls, int count,
+                                            float* __restrict out) {
+  float s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, s5 = 0, s6 = 0, s7 = 0, s8 = 0, s9 = 0, s10 = 0,
+        s11 = 0, s12 = 0, s13 = 0, s14 = 0, s15 = 0, s16 = 0, s17 = 0, s18 = 0, s19 = 0, s20 = 0,
+        s21 = 0, s22 = 0, s23 = 0, s24 = 0, s25 = 0, s26 = 0, s27 = 0, s28 = 0, s29 = 0;
+  for (int i = 0; i < count; ++i) {
+    const float v0 = pulls.vx[i], v1 = pulls.vy[i], v2 = pulls.vz[i];
+    const float nx = pulls.nx[i], ny = pulls.ny[i], nz = pulls.nz[i];
+    const float w = pulls.weight[i], residual = pulls.residual[i];
     const float w0 = w * v0, w1 = w * v1, w2 = w * v2, w3 = w * nx, w4 = w * ny, w5 = w * nz;
     s0 += w0 * v0;
     s1 += w1 * v0, s2 += w1 * v1;
@@ -234,12 +257,23 @@ struct Root {
     s15 += w5 * v0, s16 += w5 * v1, s17 += w5 * v2, s18 += w5 * nx, s19 += w5 * ny, s20 += w5 * nz;
     s21 += w0 * residual, s22 += w1 * residual, s23 += w2 * residual;
     s24 += w3 * residual, s25 += w4 * residual, s26 += w5 * residual;
-    s27 += 1.0F - robust, s28 += w, s29 += residual * residual;
+    s27 += pulls.cost[i], s28 += w, s29 += residual * residual;
   }
   const float sums[LimbSums::kCount] = {s0,  s1,  s2,  s3,  s4,  s5,  s6,  s7,  s8,  s9,
                                         s10, s11, s12, s13, s14, s15, s16, s17, s18, s19,
                                         s20, s21, s22, s23, s24, s25, s26, s27, s28, s29};
   for (int i = 0; i < LimbSums::kCount; ++i) out[i] += sums[i];
+}
+
+[[gnu::always_inline]] inline void Sum(const LimbSurface& limb, const SumSettings& settings,
+                                       const float* x, const float* y, const float* z,
+                                       const float* sigma, int count, float* out) {
+  Pulls pulls;
+  for (int first = 0; first < count; first += Pulls::kCount) {
+    const int some = count - first < Pulls::kCount ? count - first : Pulls::kCount;
+    FindPulls(limb, settings, x + first, y + first, z + first, sigma + first, some, pulls);
+    AddPulls(pulls, some, out);
+  }
 }
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace deixis::pose_fitter {
 namespace {
 
 constexpr double kSame_m = 0.25;      // Places nearer than this are one.
-constexpr double kLongestWait = 4.0;  // In periods.
+constexpr double kLongestWait = 2.0;  // In periods.
 constexpr double kForget = 8.0;       // Likewise.
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace deixis::pose_fitter {
 /// image anew: after each time in vain the next one comes later.
 class SearchedPlaces {
  public:
-  /// Searches of one place are `period_s` apart, or up to four times as much when they are in vain.
+  /// Searches of one place are `period_s` apart, or twice as much when they are in vain.
   explicit SearchedPlaces(double period_s) : period_s_(period_s) {}
 
   void Clear() { places_.clear(); }

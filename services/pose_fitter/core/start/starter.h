@@ -15,9 +15,9 @@ namespace deixis::pose_fitter {
 
 struct StarterConfig {
   int effort = 60000;           ///< Of one image: points times rounds of fits, about.
-  int coarse_points = 400;      ///< That each start pose is tried with,
-  int coarse_iterations = 6;    ///< in so many rounds;
-  int kept = 2;                 ///< so many go on, that face the camera, and as many that do not.
+  int coarse_points = 600;      ///< That each start pose is tried with,
+  int coarse_iterations = 8;    ///< in so many rounds;
+  int kept = 3;                 ///< so many go on, that face the camera, and as many that do not.
   int iterations = 8;           ///< Of the first fit of each of these.
   double first_scale_m = 0.1;   ///< Of its robust weights, in the first round.
   double first_reach_m = 0.25;  ///< Points farther from all limbs do not count, in the first round.
