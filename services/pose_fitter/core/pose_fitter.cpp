@@ -8,6 +8,9 @@ namespace deixis::pose_fitter {
 namespace {
 
 constexpr std::size_t kMostPeople = 32;
+constexpr int kEdge_px = 2;  // Regions that are nearer to the picture's edge are cut.
+constexpr double kOtherStature = 1.3, kOtherBuild = 1.3;  // Standard deviations.
+constexpr double kSameHead_m = 0.3;  // Between the head of a body and one that is seen.
 constexpr double kShortest_m = 1.4, kTallest_m = 2.05;  // Statures that a head's height may tell.
 
 }  // namespace
@@ -37,18 +40,25 @@ const body_model::BodyPoses& PoseFitter::Track(const images::DepthImage& image,
   view_.Update(DepthCameraOf(calibration, image.depth_mm.size()), image.depth_mm);
   const double time_s = 1e-6 * static_cast<double>(image.time.microseconds);
   const double seconds = last_time_ ? SecondsBetween(*last_time_, image.time) : 0.0;
-  if (seconds <= 0.0 || seconds > config_.tracks.hidden_time_s) people_.clear();
+  if (seconds <= 0.0 || seconds > config_.tracks.hidden_time_s) {
+    people_.clear();
+    gone_.clear();
+  }
   last_time_ = image.time;
   const auto& is_sound = sound_.Find(view_);
   floor_ = floor_tracker_.Update(view_, is_sound, time_s);
-  FollowAll(seconds);
+  FollowAll(seconds, time_s);
   FindNew(is_sound, time_s);
   Number(time_s);
   Report(image);
   return poses_;
 }
 
-void PoseFitter::FollowAll(double seconds) {
+void PoseFitter::FollowAll(double seconds, double time_s) {
+  const auto is_forgotten = [&](const GonePerson& one) {
+    return time_s < one.time_s || time_s - one.time_s > config_.tracks.hidden_time_s;
+  };
+  gone_.erase(std::remove_if(gone_.begin(), gone_.end(), is_forgotten), gone_.end());
   taken_.assign(view_.z_m().size(), 0);
   for (std::size_t i = 0; i < people_.size(); ++i) {
     people_[i]->Follow(view_, floor_, taken_, seconds);
@@ -57,6 +67,9 @@ void PoseFitter::FollowAll(double seconds) {
   const auto gone = [this](const auto& person) {
     return person->unseen_s() > config_.tracks.hidden_time_s || person->IsNobody();
   };
+  for (const auto& person : people_) {
+    if (gone(person)) gone_.push_back({person->best().pose, time_s});
+  }
   const auto kept = std::remove_if(people_.begin(), people_.end(), gone);
   if (kept == people_.end()) return;
   people_.erase(kept, people_.end());
@@ -81,7 +94,20 @@ void PoseFitter::FindNew(const std::vector<std::uint8_t>& is_sound, double time_
     return;
   }
   last_search_s_ = time_s;
-  for (const PersonRegion& region : finder_.Find(view_, is_sound, floor_).regions) Meet(region);
+  finder_.Find(view_, is_sound, floor_);
+  SeeHeads();
+  for (const PersonRegion& region : finder_.regions().regions) Meet(region);
+}
+
+void PoseFitter::SeeHeads() {
+  const auto& heads = finder_.regions().heads;
+  for (const auto& person : people_) {
+    const auto own_m = person->HeadMiddle_m();
+    person->SeeHead(own_m && std::any_of(heads.begin(), heads.end(), [&](const HeadShape& head) {
+                      return head.likeness >= config_.start.least_head &&
+                             (*own_m - head.middle_m).norm() < kSameHead_m;
+                    }));
+  }
 }
 
 // A region that nobody has yet may be somebody new; one of a person who is badly explained may tell
@@ -93,29 +119,84 @@ void PoseFitter::Meet(const PersonRegion& region) {
   if (taken > config_.most_taken * region.pixel_count) {
     const auto most = std::max_element(by_person.begin() + 1, by_person.end());
     FollowedPerson& owner = *people_[static_cast<std::size_t>(most - by_person.begin() - 1)];
-    if (owner.IsDoubtful()) owner.AddRivals(starter_.Find(view_, regions, region, owner.model()));
+    if (owner.IsDoubtful() || HasStrayHead(region)) {
+      owner.AddRivals(starter_.Find(view_, regions, region, {&owner.model()}).poses);
+    }
     return;
   }
   if (people_.size() >= kMostPeople) return;
-  const PersonBody body = BodyOf(region);
-  auto starts = starter_.Find(view_, regions, region, body.model);
-  if (starts.empty()) return;
+  const std::vector<PersonBody> bodies = BodiesOf(region);
+  std::vector<const body_model::BodyModel*> models;
+  for (const PersonBody& body : bodies) models.push_back(&body.model);
+  Starts starts = starter_.Find(view_, regions, region, models);
+  if (starts.poses.empty()) return;
+  Recall(starts.poses);
   people_.push_back(std::make_unique<FollowedPerson>(
       FollowSettings{config_.follow,
                      config_.start,
                      config_.evidence,
                      {config_.method, config_.fit, config_.limb_icp},
                      config_.shape},
-      body, maker_.plan(), std::move(starts)));
+      bodies[starts.body], maker_.plan(), std::move(starts.poses)));
   people_.back()->Look(view_, floor_);
   Take(people_.size() - 1);
 }
 
-PersonBody PoseFitter::BodyOf(const PersonRegion& region) const {
-  if (config_.stature_m > 0.0) return maker_.Make(config_.stature_m, config_.stature_sigma_m);
-  const bool tells = floor_ && region.top_m > kShortest_m && region.top_m < kTallest_m;
-  if (!tells) return maker_.Make(std::nullopt, 0.0);
-  return maker_.Make(region.top_m, config_.guessed_sigma_m);
+/// Who was lost here and is found again looks where he looked: front and back are much alike.
+void PoseFitter::Recall(std::vector<Hypothesis>& starts) const {
+  for (const GonePerson& gone : gone_) {
+    for (Hypothesis& start : starts) {
+      const Eigen::Vector3d apart_m =
+          start.pose.frame_from_root.translation_m - gone.pose.frame_from_root.translation_m;
+      if (apart_m.norm() > config_.tracks.largest_gate_m || !IsTurnedAbout(start.pose, gone.pose)) {
+        continue;
+      }
+      start.handicap = config_.follow.turned_about;
+      start.mean_score += start.handicap;
+    }
+  }
+}
+
+/// Whether there is a head in it that is nobody's.
+bool PoseFitter::HasStrayHead(const PersonRegion& region) const {
+  const PeopleRegions& regions = finder_.regions();
+  return std::any_of(regions.heads.begin(), regions.heads.end(), [&](const HeadShape& head) {
+    const auto middle = static_cast<std::size_t>(head.v_px * view_.width_px() + head.u_px);
+    if (head.likeness < config_.people.least_head || regions.labels[middle] != region.label) {
+      return false;
+    }
+    return std::none_of(people_.begin(), people_.end(), [&head](const auto& person) {
+      const auto own_m = person->HeadMiddle_m();
+      return own_m && (*own_m - head.middle_m).norm() < kSameHead_m;
+    });
+  });
+}
+
+/// Bodies that somebody may have, the likeliest first. Whose stature nobody said may be tall or
+/// short, unless it is seen how high his head is, and slim or stout.
+std::vector<PersonBody> PoseFitter::BodiesOf(const PersonRegion& region) const {
+  if (config_.stature_m > 0.0) {
+    return {maker_.Make(config_.stature_m, config_.stature_sigma_m)};
+  }
+  const int below_px = view_.height_px() - (region.box_px.y + region.box_px.height);
+  const bool is_whole = floor_ || (region.box_px.y > kEdge_px && below_px > kEdge_px);
+  const bool tells = is_whole && region.top_m > kShortest_m && region.top_m < kTallest_m;
+  const PersonBody anybody = maker_.Make(std::nullopt, 0.0);
+  const double mean_m = anybody.estimate.Length_m("kph");
+  const double spread_m = anybody.estimate.Spread_m("kph");
+  std::vector<PersonBody> bodies{tells ? maker_.Make(region.top_m, config_.guessed_sigma_m)
+                                       : anybody};
+  for (const double build : {-kOtherBuild, kOtherBuild}) {
+    bodies.push_back(tells ? maker_.Make(region.top_m, config_.guessed_sigma_m, build)
+                           : maker_.Make(std::nullopt, 0.0, build));
+  }
+  if (tells && floor_) return bodies;
+  for (const double stature : {-kOtherStature, kOtherStature}) {
+    for (const double build : {-kOtherBuild, 0.0}) {
+      bodies.push_back(maker_.Make(mean_m + stature * spread_m, config_.guessed_sigma_m, build));
+    }
+  }
+  return bodies;
 }
 
 int PoseFitter::TakenPixels(const PersonRegion& region, std::vector<int>& by_person) const {

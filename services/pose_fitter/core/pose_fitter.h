@@ -61,6 +61,12 @@ struct PoseFitterConfig {
   void Validate() const;  ///< Throws FaultsFound.
 };
 
+/// Somebody who is followed no longer.
+struct GonePerson {
+  body_model::BodyPose pose;
+  double time_s = 0.0;
+};
+
 /// Follows the people in the images of one depth camera.
 class PoseFitter {
  public:
@@ -76,10 +82,13 @@ class PoseFitter {
   std::vector<body_model::PersonModel> Models() const;
 
  private:
-  void FollowAll(double seconds);
+  void FollowAll(double seconds, double time_s);
+  void Recall(std::vector<Hypothesis>& starts) const;
   void FindNew(const std::vector<std::uint8_t>& is_sound, double time_s);
   void Meet(const PersonRegion& region);
-  PersonBody BodyOf(const PersonRegion& region) const;
+  void SeeHeads();
+  bool HasStrayHead(const PersonRegion& region) const;
+  std::vector<PersonBody> BodiesOf(const PersonRegion& region) const;
   void Take(std::size_t person);
   int TakenPixels(const PersonRegion& region, std::vector<int>& by_person) const;
   void Number(double time_s);
@@ -95,6 +104,7 @@ class PoseFitter {
   Starter starter_;
   PersonTracks tracks_;
   std::vector<std::unique_ptr<FollowedPerson>> people_;
+  std::vector<GonePerson> gone_;
   std::vector<std::uint8_t> taken_;  ///< Per pixel: 0 = nobody's, else 1 + the person's place.
   std::optional<Timestamp> last_time_;
   std::optional<double> last_search_s_;

@@ -14,7 +14,7 @@ class StarterTest : public ::testing::Test {
     view_.Update(picture.camera, picture.depth_mm);
     const auto& regions = finder_.Find(view_, sound_.Find(view_), room_.Floor());
     if (regions.regions.empty()) return {};
-    return starter_.Find(view_, regions, regions.regions[0], body_);
+    return starter_.Find(view_, regions, regions.regions[0], {&body_}).poses;
   }
   test::Picture WithPerson(const body_model::BodyPose& pose) {
     test::Picture picture = test::Look(room_, 240);
@@ -64,7 +64,7 @@ TEST_F(StarterTest, ScoresABoxWorseThanAPersonOrOffersNobody) {
   }
   ASSERT_GT(region.pixel_count, 1000);
   region.centroid_m /= region.pixel_count;
-  for (const Hypothesis& start : starter_.Find(view_, regions, region, body_)) {
+  for (const Hypothesis& start : starter_.Find(view_, regions, region, {&body_}).poses) {
     EXPECT_GT(start.mean_score, 0.3) << "a box looks like a person";
   }
 }

@@ -1,10 +1,21 @@
 #include "services/pose_fitter/core/start/starter.h"
 
+#include <algorithm>
+
+#include "common/body_model/joint_angles.h"
 #include "common/config/config.h"
 #include "services/pose_fitter/core/start/start_poses.h"
 
 namespace deixis::pose_fitter {
 namespace {
+
+constexpr double kHopeless = 1.3;       // Times the worst score: no other body mends it.
+constexpr double kSameHead_m = 0.25;    // Between the head of a pose and one that is seen.
+constexpr double kHeadMargin_m = 0.25;  // Heads nearer to the picture's edge may not be told.
+constexpr double kLowNoise_m = 0.015, kHighNoise_m = 0.035;
+constexpr double kNoisyTrunk = 0.3, kNoisyCertainTrunk = 0.25;  // More of it where noise is high.
+constexpr double kTrunkRamp = 0.15;
+constexpr double kLower_m = 0.2, kBody_m = 1.5, kBeside_m = 0.5;  // Of a body below its head.
 
 BodyFitterConfig FirstFit(const StarterConfig& config, BodyFitterConfig fit) {
   fit.iterations = config.iterations;
@@ -13,6 +24,21 @@ BodyFitterConfig FirstFit(const StarterConfig& config, BodyFitterConfig fit) {
   fit.most_rest_rad = config.rest_rad;
   fit.upright_rad = config.upright_rad;
   return fit;
+}
+
+double BestOf(const std::vector<Hypothesis>& poses) {
+  double best = poses.front().mean_score;
+  for (const Hypothesis& pose : poses) best = std::min(best, pose.mean_score);
+  return best;
+}
+
+/// Of the head above the root, of somebody who stands.
+double HeadHeight_m(const body_model::BodyModel& model) {
+  const auto head = model.Find("head");
+  if (!head) return 0.0;
+  body_model::Kinematics kinematics(model);
+  kinematics.Update(body_model::Standing(model));
+  return kinematics.distal_m(*head).z();
 }
 
 }  // namespace
@@ -26,8 +52,14 @@ void StarterConfig::Validate() const {
   faults.Require(upright_rad > 0.0, "upright_rad", "must be positive");
   faults.Require(gate_m > 0.0, "gate_m", "must be positive");
   faults.Require(worst_score > 0.0, "worst_score", "must be positive");
+  faults.Require(worst_with_head >= worst_score, "worst_with_head",
+                 "must not be less than worst_score");
+  faults.Require(certain_head >= least_head, "certain_head", "must not be less than least_head");
+  faults.Require(certain_trunk >= 0.0 && certain_trunk <= 1.0, "certain_trunk", "must be 0..1");
+  faults.Require(least_head >= 0.0 && least_head <= 1.0, "least_head", "must be 0..1");
   faults.Require(least_trunk >= 0.0 && least_trunk <= 1.0, "least_trunk", "must be 0..1");
   faults.Require(facing_away >= 0.0, "facing_away", "must not be negative");
+  faults.Require(better_body >= 0.0, "better_body", "must not be negative");
   faults.ThrowIfAny();
 }
 
@@ -45,15 +77,32 @@ Starter::Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence
       second_fit_(fit),
       evidence_(evidence) {}
 
-std::vector<Hypothesis> Starter::Find(const DepthView& view, const PeopleRegions& regions,
-                                      const PersonRegion& region,
-                                      const body_model::BodyModel& model) {
+Starts Starter::Find(const DepthView& view, const PeopleRegions& regions,
+                     const PersonRegion& region,
+                     const std::vector<const body_model::BodyModel*>& bodies) {
+  Starts best{FindWith(view, regions, region, *bodies.front()), 0};
+  if (best.poses.empty() || BestOf(best.poses) > kHopeless * config_.worst_with_head) return {};
+  const std::vector<Hypothesis> first = best.poses;
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    auto poses = Wear(view, regions, first, *bodies.front(), *bodies[i]);
+    if (poses.empty() || BestOf(poses) > BestOf(best.poses) - config_.better_body) continue;
+    best = {std::move(poses), i};
+  }
+  auto& poses = best.poses;
+  const auto is_nobody = [](const Hypothesis& pose) { return pose.mean_score > pose.worst_score; };
+  poses.erase(std::remove_if(poses.begin(), poses.end(), is_nobody), poses.end());
+  return best;
+}
+
+std::vector<Hypothesis> Starter::FindWith(const DepthView& view, const PeopleRegions& regions,
+                                          const PersonRegion& region,
+                                          const body_model::BodyModel& model) {
   first_.emplace(first_fit_, model);
   second_.emplace(second_fit_, model);
   std::optional<Hypothesis> facing, turned;
-  for (const Eigen::Vector3d& top_m : HeadTops(view, regions, region, config_.heads)) {
+  for (const Eigen::Vector3d& top_m : TopsOf(view, regions, region)) {
     for (const body_model::BodyPose& guess : StartPoses(model, top_m, regions.floor)) {
-      auto start = Try(view, regions.floor, guess);
+      auto start = Try(view, regions, guess);
       if (!start) continue;
       const bool faces = FacingPenalty(config_, start->pose) <= 0.5 * config_.facing_away;
       std::optional<Hypothesis>& best = faces ? facing : turned;
@@ -67,9 +116,95 @@ std::vector<Hypothesis> Starter::Find(const DepthView& view, const PeopleRegions
   return starts;
 }
 
-std::optional<Hypothesis> Starter::Try(const DepthView& view,
-                                       const std::optional<body_model::Floor>& floor,
+/// The same poses of another body, with the head where it was.
+std::vector<Hypothesis> Starter::Wear(const DepthView& view, const PeopleRegions& regions,
+                                      const std::vector<Hypothesis>& starts,
+                                      const body_model::BodyModel& before,
+                                      const body_model::BodyModel& model) {
+  const double taller_m = HeadHeight_m(model) - HeadHeight_m(before);
+  first_.emplace(first_fit_, model);
+  second_.emplace(second_fit_, model);
+  std::vector<Hypothesis> worn;
+  for (const Hypothesis& start : starts) {
+    body_model::BodyPose guess = start.pose;
+    guess.frame_from_root.translation_m -=
+        taller_m * (guess.frame_from_root.rotation * Eigen::Vector3d::UnitZ());
+    if (auto found = Try(view, regions, guess)) worn.push_back(std::move(*found));
+  }
+  return worn;
+}
+
+/// 0 up to `none`, 1 from `full` on, straight between.
+double Ramp(double value, double none, double full) {
+  return std::clamp((value - none) / (full - none), 0.0, 1.0);
+}
+
+/// Whether a head there may be cut by the edge of the picture, so that it does not look like one.
+bool IsNearEdge(const DepthView& view, const Eigen::Vector3d& point_m) {
+  const double margin_px = kHeadMargin_m * view.camera().focal_px.x() / point_m.z();
+  const Eigen::Vector2d at_px = view.camera().Project(point_m);
+  return at_px.x() < margin_px || at_px.y() < margin_px ||
+         at_px.x() > view.width_px() - margin_px || at_px.y() > view.height_px() - margin_px;
+}
+
+/// Whether somebody's head is above it: then it is a knee, a fist, or what he holds.
+bool IsBelow(const Eigen::Vector3d& top_m, const Eigen::Vector3d& other_m,
+             const Eigen::Vector3d& up) {
+  const Eigen::Vector3d from_m = top_m - other_m;
+  const double lower_m = -up.dot(from_m);
+  return lower_m > kLower_m && lower_m < kBody_m && (from_m + lower_m * up).norm() < kBeside_m;
+}
+
+/// Where heads are seen; else where the outline may be one.
+std::vector<Eigen::Vector3d> Starter::TopsOf(const DepthView& view, const PeopleRegions& regions,
+                                             const PersonRegion& region) const {
+  const Eigen::Vector3d up =
+      regions.floor ? regions.floor->normal : Eigen::Vector3d(-Eigen::Vector3d::UnitY());
+  std::vector<Eigen::Vector3d> tops;
+  for (const HeadShape& head : regions.heads) {
+    const auto middle = static_cast<std::size_t>(head.v_px * view.width_px() + head.u_px);
+    if (head.likeness < config_.least_head || regions.labels[middle] != region.label) continue;
+    const bool is_below =
+        std::any_of(regions.heads.begin(), regions.heads.end(), [&](const HeadShape& other) {
+          return other.likeness >= config_.least_head && IsBelow(head.top_m, other.top_m, up);
+        });
+    if (!is_below && static_cast<int>(tops.size()) < config_.heads.most) tops.push_back(head.top_m);
+  }
+  if (!tops.empty()) return tops;
+  for (const Eigen::Vector3d& top_m : HeadTops(view, regions, region, config_.heads)) {
+    if (IsNearEdge(view, top_m)) tops.push_back(top_m);
+  }
+  return tops;
+}
+
+/// Of the pose that the second fit has: whose head is certain and whose trunk is well in view may
+/// look worse otherwise, and who should have a head in the picture is nobody without it.
+double Starter::WorstScore(const DepthView& view, const std::vector<HeadShape>& heads,
+                           double trunk_seen) {
+  const auto head = second_->kinematics().model().Find("head");
+  if (!head) return config_.worst_score;
+  const Eigen::Vector3d middle_m =
+      0.5 * (second_->kinematics().proximal_m(*head) + second_->kinematics().distal_m(*head));
+  double likeness = 0.0;
+  for (const HeadShape& seen : heads) {
+    const bool is_here = (seen.middle_m - middle_m).norm() < kSameHead_m;
+    if (is_here) likeness = std::max(likeness, seen.likeness);
+  }
+  // The noisier the depth, the more of the trunk seems to be where it is by chance.
+  const double noise = Ramp(view.camera().noise.Sigma_m(middle_m.z()), kLowNoise_m, kHighNoise_m);
+  if (trunk_seen < config_.least_trunk + noise * kNoisyTrunk) return 0.0;
+  if (likeness < config_.least_head) {
+    return IsNearEdge(view, middle_m) ? config_.worst_score : 0.0;
+  }
+  if (likeness < config_.certain_head) return config_.worst_score;
+  const double certain = config_.certain_trunk + noise * kNoisyCertainTrunk;
+  return config_.worst_score + (config_.worst_with_head - config_.worst_score) *
+                                   Ramp(trunk_seen, certain - kTrunkRamp, certain);
+}
+
+std::optional<Hypothesis> Starter::Try(const DepthView& view, const PeopleRegions& regions,
                                        const body_model::BodyPose& guess) {
+  const auto& floor = regions.floor;
   Hypothesis start;
   start.pose = guess;
   evidence_.Gather(view, first_->kinematics(), {&guess}, floor, {}, config_.gate_m);
@@ -79,9 +214,8 @@ std::optional<Hypothesis> Starter::Try(const DepthView& view,
   start.information = second_->information();
   start.rates_rad_per_s.setZero(guess.angles_rad.size());
   start.mean_score = start.result.score + FacingPenalty(config_, start.pose);
-  if (start.mean_score > config_.worst_score || start.result.trunk_seen < config_.least_trunk) {
-    return std::nullopt;
-  }
+  start.worst_score = WorstScore(view, regions.heads, start.result.trunk_seen);
+  if (start.result.trunk_seen < config_.least_trunk) return std::nullopt;
   return start;
 }
 
