@@ -131,13 +131,14 @@ void PoseFitter::Meet(const PersonRegion& region) {
   Starts starts = starter_.Find(view_, regions, region, models);
   if (starts.poses.empty()) return;
   Recall(starts.poses);
-  people_.push_back(std::make_unique<FollowedPerson>(
-      FollowSettings{config_.follow,
-                     config_.start,
-                     config_.evidence,
-                     {config_.method, config_.fit, config_.limb_icp},
-                     config_.shape},
-      bodies[starts.body], maker_.plan(), std::move(starts.poses)));
+  FollowedPerson somebody(FollowSettings{config_.follow,
+                                         config_.start,
+                                         config_.evidence,
+                                         {config_.method, config_.fit, config_.limb_icp},
+                                         config_.shape},
+                          bodies[starts.body], maker_.plan(), std::move(starts.poses));
+  if (IsOfSomebody(somebody)) return;
+  people_.push_back(std::make_unique<FollowedPerson>(std::move(somebody)));
   people_.back()->Look(view_, floor_);
   Take(people_.size() - 1);
 }
@@ -155,6 +156,16 @@ void PoseFitter::Recall(std::vector<Hypothesis>& starts) const {
       start.mean_score += start.handicap;
     }
   }
+}
+
+/// Whether it is a part of somebody who is followed already: its head would be below his.
+bool PoseFitter::IsOfSomebody(FollowedPerson& other) const {
+  const auto other_m = other.HeadMiddle_m();
+  const Eigen::Vector3d up = floor_ ? floor_->normal : Eigen::Vector3d(-Eigen::Vector3d::UnitY());
+  return other_m && std::any_of(people_.begin(), people_.end(), [&](const auto& person) {
+           const auto head_m = person->HeadMiddle_m();
+           return head_m && IsBelowHead(*other_m, *head_m, up);
+         });
 }
 
 /// Whether there is a head in it that is nobody's.

@@ -87,6 +87,7 @@ class PoseFitter {
   void FindNew(const std::vector<std::uint8_t>& is_sound, double time_s);
   void Meet(const PersonRegion& region);
   void SeeHeads();
+  bool IsOfSomebody(FollowedPerson& other) const;
   bool HasStrayHead(const PersonRegion& region) const;
   std::vector<PersonBody> BodiesOf(const PersonRegion& region) const;
   void Take(std::size_t person);

@@ -86,6 +86,18 @@ TEST_F(FloorTrackerTest, SaysNothingWhereOnlyPeopleAreSeen) {
   EXPECT_FALSE(See(room));
 }
 
+TEST_F(FloorTrackerTest, SaysNothingOfAPlaneThatSurfacesOnlyPassThrough) {
+  Room room;
+  room.has_floor = false;
+  room.wall_m = 3.4;
+  for (int row = 0; row < 3; ++row) {
+    for (int i = -2; i <= 2; ++i) {
+      room.Add(test::Ball{{0.55 * i, 2.0 + 0.4 * row, 0.25 + 0.2 * row}, 0.3});
+    }
+  }
+  EXPECT_FALSE(See(room));
+}
+
 TEST_F(FloorTrackerTest, SaysNothingOfNothing) {
   const cv::Mat nothing(240, 320, CV_16UC1, cv::Scalar(0));
   const cv::Mat pixel(1, 1, CV_16UC1, cv::Scalar(1000));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/body_model/kinematics.h"
 #include "services/pose_fitter/core/depth/sound_depth.h"
 #include "test/services/pose_fitter/synthetic_person.h"
 
@@ -39,6 +40,34 @@ TEST_F(StarterTest, FindsTheRootOfSomebodyWhoStands) {
   EXPECT_LT((found.translation_m - truth.frame_from_root.translation_m).norm(), 0.06);
   EXPECT_LT(found.rotation.angularDistance(truth.frame_from_root.rotation), 0.35);
   EXPECT_LE(starts[0].mean_score, StarterConfig{}.worst_score);
+}
+
+TEST_F(StarterTest, TakesTheBodyThatSuitsThePerson) {
+  const body_model::BodyModel small = test::ClothedBody(1.55), tall = test::ClothedBody(1.95);
+  for (const auto* truth : {&small, &tall}) {
+    test::Picture picture = test::Look(room_, 240);
+    test::Draw(*truth, test::StandingIn(room_, *truth, 0.0, 2.8), 1, picture);
+    view_.Update(picture.camera, picture.depth_mm);
+    const auto& regions = finder_.Find(view_, sound_.Find(view_), room_.Floor());
+    ASSERT_FALSE(regions.regions.empty());
+    const Starts starts =
+        starter_.Find(view_, regions, regions.regions[0], {&body_, &small, &tall});
+    ASSERT_FALSE(starts.poses.empty());
+    EXPECT_EQ(starts.body, truth == &small ? 1U : 2U);
+  }
+}
+
+TEST_F(StarterTest, SeesNobodyWithoutAHeadWhereOneShouldBeInThePicture) {
+  const auto truth = test::StandingIn(room_, body_, 0.0, 2.6);
+  test::Picture picture = WithPerson(truth);
+  ASSERT_FALSE(Find(picture).empty());
+  const test::Picture room = test::Look(room_, 240);
+  body_model::Kinematics kinematics(body_);
+  kinematics.Update(truth);
+  const auto neck_px = picture.camera.Project(kinematics.proximal_m(*body_.Find("neck")));
+  const cv::Rect above(0, 0, 240, static_cast<int>(neck_px.y()));
+  room.depth_mm(above).copyTo(picture.depth_mm(above));
+  EXPECT_TRUE(Find(picture).empty());
 }
 
 TEST_F(StarterTest, ScoresABoxWorseThanAPersonOrOffersNobody) {

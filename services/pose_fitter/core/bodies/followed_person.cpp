@@ -172,7 +172,7 @@ bool FollowedPerson::IsDoubtful() const {
 bool FollowedPerson::IsNobody() const {
   return best().age_s > 2.0 * settings_.follow.settle_s &&
          best().mean_score >
-             (is_proven_ || has_head_ ? settings_.follow.lost_score : best().worst_score);
+             (is_proven_ || has_head_ ? settings_.follow.lost_score : settings_.start.worst_score);
 }
 
 std::optional<Eigen::Vector3d> FollowedPerson::HeadMiddle_m() {

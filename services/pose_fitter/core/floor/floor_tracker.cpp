@@ -32,7 +32,7 @@ constexpr FloorTolerance kSearchTolerance = {2.5F, 0.03F};
 constexpr FloorTolerance kTrackTolerance = {3.0F, 0.06F};
 constexpr FloorTolerance kFineTolerance = {1.5F, 0.01F};
 constexpr FloorTolerance kCloseTolerance = {1.0F, 0.008F};
-constexpr float kClose = 0.45F;  // Of what is on a plane lies so close to it; of what only passes
+constexpr float kClose = 0.38F;  // Of what is on a plane lies so close to it; of what only passes
                                  // through it, about a third.
 constexpr float kLargeClose = 0.33F;  // A large one may be rough, or its depth be bad.
 constexpr double kLarge_m2 = 0.6;     // Seen head on.

@@ -55,12 +55,18 @@ class HeadShapes {
                                      const std::vector<std::uint8_t>& is_sound,
                                      const Eigen::Vector3d& up, double near_m, double far_m);
 
+  const std::vector<HeadShape>& found() const { return heads_; }
+
  private:
   struct Probe;
-  double ClearShare(const Probe& probe, double z_m, double noise_m) const;
+  float ClearShare(const Probe& probe) const;
+  float HeadShare(const Probe& probe) const;
+  float Roundness(const Probe& probe) const;
+  float TrunkShare(const Probe& probe) const;
   double LikenessAt(const DepthView& depth, int u, int v, const Eigen::Vector2d& up_px) const;
 
   HeadShapesConfig config_;
+  std::vector<Eigen::Vector2f> outer_m_, inner_m_, trunk_m_;  ///< Offsets to the right and up.
   std::vector<HeadShape> candidates_, heads_;
 };
 

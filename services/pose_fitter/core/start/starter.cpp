@@ -12,8 +12,8 @@ namespace {
 constexpr double kHopeless = 1.3;       // Times the worst score: no other body mends it.
 constexpr double kSameHead_m = 0.25;    // Between the head of a pose and one that is seen.
 constexpr double kHeadMargin_m = 0.25;  // Heads nearer to the picture's edge may not be told.
-constexpr double kLowNoise_m = 0.015, kHighNoise_m = 0.035;
-constexpr double kNoisyTrunk = 0.3, kNoisyCertainTrunk = 0.25;  // More of it where noise is high.
+constexpr double kLowNoise_m = 0.015, kHighNoise_m = 0.04;
+constexpr double kNoisyTrunk = 0.4, kNoisyCertainTrunk = 0.25;  // More of it where noise is high.
 constexpr double kTrunkRamp = 0.15;
 constexpr double kLower_m = 0.2, kBody_m = 1.5, kBeside_m = 0.5;  // Of a body below its head.
 
@@ -61,6 +61,13 @@ void StarterConfig::Validate() const {
   faults.Require(facing_away >= 0.0, "facing_away", "must not be negative");
   faults.Require(better_body >= 0.0, "better_body", "must not be negative");
   faults.ThrowIfAny();
+}
+
+bool IsBelowHead(const Eigen::Vector3d& point_m, const Eigen::Vector3d& head_m,
+                 const Eigen::Vector3d& up) {
+  const Eigen::Vector3d from_m = point_m - head_m;
+  const double lower_m = -up.dot(from_m);
+  return lower_m > kLower_m && lower_m < kBody_m && (from_m + lower_m * up).norm() < kBeside_m;
 }
 
 double FacingPenalty(const StarterConfig& config, const body_model::BodyPose& pose) {
@@ -147,14 +154,6 @@ bool IsNearEdge(const DepthView& view, const Eigen::Vector3d& point_m) {
          at_px.x() > view.width_px() - margin_px || at_px.y() > view.height_px() - margin_px;
 }
 
-/// Whether somebody's head is above it: then it is a knee, a fist, or what he holds.
-bool IsBelow(const Eigen::Vector3d& top_m, const Eigen::Vector3d& other_m,
-             const Eigen::Vector3d& up) {
-  const Eigen::Vector3d from_m = top_m - other_m;
-  const double lower_m = -up.dot(from_m);
-  return lower_m > kLower_m && lower_m < kBody_m && (from_m + lower_m * up).norm() < kBeside_m;
-}
-
 /// Where heads are seen; else where the outline may be one.
 std::vector<Eigen::Vector3d> Starter::TopsOf(const DepthView& view, const PeopleRegions& regions,
                                              const PersonRegion& region) const {
@@ -166,7 +165,7 @@ std::vector<Eigen::Vector3d> Starter::TopsOf(const DepthView& view, const People
     if (head.likeness < config_.least_head || regions.labels[middle] != region.label) continue;
     const bool is_below =
         std::any_of(regions.heads.begin(), regions.heads.end(), [&](const HeadShape& other) {
-          return other.likeness >= config_.least_head && IsBelow(head.top_m, other.top_m, up);
+          return other.likeness >= config_.least_head && IsBelowHead(head.top_m, other.top_m, up);
         });
     if (!is_below && static_cast<int>(tops.size()) < config_.heads.most) tops.push_back(head.top_m);
   }

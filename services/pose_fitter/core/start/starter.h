@@ -49,6 +49,11 @@ struct StarterConfig {
   void Validate() const;  ///< Throws FaultsFound.
 };
 
+/// Whether somebody's body is there, whose head is above it: then what looks like another head is a
+/// knee, a fist, or what he holds. `up`: against gravity.
+bool IsBelowHead(const Eigen::Vector3d& point_m, const Eigen::Vector3d& head_m,
+                 const Eigen::Vector3d& up);
+
 /// What a pose that turns the back to the camera has added to its score.
 double FacingPenalty(const StarterConfig& config, const body_model::BodyPose& pose);
 
