@@ -1,6 +1,7 @@
 #include "services/pose_fitter/core/pose_fitter.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/config/config.h"
 
@@ -10,6 +11,7 @@ namespace {
 constexpr std::size_t kMostPeople = 32;
 constexpr int kEdge_px = 2;  // Regions that are nearer to the picture's edge are cut.
 constexpr double kOtherStature = 1.3, kOtherBuild = 1.3;  // Standard deviations.
+constexpr double kMoved_m = 0.04, kMovedSigmas = 3.0;     // From here on a pixel has moved.
 constexpr double kSameHead_m = 0.3;  // Between the head of a body and one that is seen.
 constexpr double kShortest_m = 1.4, kTallest_m = 2.05;  // Statures that a head's height may tell.
 
@@ -22,6 +24,7 @@ void PoseFitterConfig::Validate() const {
   faults.Require(stature_sigma_m > 0.0, "stature_sigma_m", "must be positive");
   faults.Require(guessed_sigma_m > 0.0, "guessed_sigma_m", "must be positive");
   faults.Require(search_s >= 0.0, "search_s", "must not be negative");
+  faults.Require(least_moved >= 0.0 && least_moved <= 1.0, "least_moved", "must be 0..1");
   faults.Require(most_taken >= 0.0 && most_taken <= 1.0, "most_taken", "must be 0..1");
   faults.ThrowIfAny();
 }
@@ -97,6 +100,7 @@ void PoseFitter::FindNew(const std::vector<std::uint8_t>& is_sound, double time_
   finder_.Find(view_, is_sound, floor_);
   SeeHeads();
   for (const PersonRegion& region : finder_.regions().regions) Meet(region);
+  searched_m_ = view_.z_m();
 }
 
 void PoseFitter::SeeHeads() {
@@ -129,6 +133,7 @@ void PoseFitter::Meet(const PersonRegion& region) {
   std::vector<const body_model::BodyModel*> models;
   for (const PersonBody& body : bodies) models.push_back(&body.model);
   Starts starts = starter_.Find(view_, regions, region, models);
+  DropStill(region, starts.poses);
   if (starts.poses.empty()) return;
   Recall(starts.poses);
   FollowedPerson somebody(FollowSettings{config_.follow,
@@ -156,6 +161,30 @@ void PoseFitter::Recall(std::vector<Hypothesis>& starts) const {
       start.mean_score += start.handicap;
     }
   }
+}
+
+/// Of the pixels of a region; 0 where nothing is known of before.
+double PoseFitter::MovedShare(const PersonRegion& region) const {
+  const auto& labels = finder_.regions().labels;
+  if (searched_m_.size() != labels.size()) return 0.0;
+  int moved = 0, known = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] != region.label || searched_m_[i] <= 0.0F) continue;
+    const auto now_m = static_cast<double>(view_.z_m()[i]);
+    const double moved_m = std::abs(now_m - static_cast<double>(searched_m_[i]));
+    ++known;
+    moved += moved_m > kMoved_m + kMovedSigmas * view_.camera().noise.Sigma_m(now_m) ? 1 : 0;
+  }
+  return known > 0 ? static_cast<double>(moved) / known : 0.0;
+}
+
+/// Who is explained badly, but for the head, is somebody only if he moves.
+void PoseFitter::DropStill(const PersonRegion& region, std::vector<Hypothesis>& starts) const {
+  if (starts.empty() || MovedShare(region) >= config_.least_moved) return;
+  const auto is_nobody = [this](const Hypothesis& start) {
+    return start.mean_score > config_.start.worst_score;
+  };
+  starts.erase(std::remove_if(starts.begin(), starts.end(), is_nobody), starts.end());
 }
 
 /// Whether it is a part of somebody who is followed already: its head would be below his.

@@ -27,6 +27,8 @@ struct PoseFitterConfig {
   double guessed_sigma_m = 0.06;  ///< Of a stature that is told from the height of the head.
   double search_s = 0.3;          ///< How often new people are looked for.
   double most_taken = 0.3;        ///< Share of a region that those who are followed may have of it.
+  double least_moved = 0.05;      ///< Share of a region that has moved since people were last looked
+                                  ///< for, of who is explained badly: furniture does not.
   SoundDepthConfig sound;
   FloorTrackerConfig floor;
   PeopleFinderConfig people;
@@ -47,6 +49,7 @@ struct PoseFitterConfig {
     v("guessed_sigma_m", guessed_sigma_m);
     v("search_s", search_s);
     v("most_taken", most_taken);
+    v("least_moved", least_moved);
     v("sound", sound);
     v("floor", floor);
     v("people", people);
@@ -87,6 +90,8 @@ class PoseFitter {
   void FindNew(const std::vector<std::uint8_t>& is_sound, double time_s);
   void Meet(const PersonRegion& region);
   void SeeHeads();
+  double MovedShare(const PersonRegion& region) const;
+  void DropStill(const PersonRegion& region, std::vector<Hypothesis>& starts) const;
   bool IsOfSomebody(FollowedPerson& other) const;
   bool HasStrayHead(const PersonRegion& region) const;
   std::vector<PersonBody> BodiesOf(const PersonRegion& region) const;
@@ -106,6 +111,7 @@ class PoseFitter {
   PersonTracks tracks_;
   std::vector<std::unique_ptr<FollowedPerson>> people_;
   std::vector<GonePerson> gone_;
+  std::vector<float> searched_m_;    ///< Depth of the image in which people were last looked for.
   std::vector<std::uint8_t> taken_;  ///< Per pixel: 0 = nobody's, else 1 + the person's place.
   std::optional<Timestamp> last_time_;
   std::optional<double> last_search_s_;
