@@ -124,7 +124,7 @@ void PoseFitter::Meet(const PersonRegion& region) {
     const auto most = std::max_element(by_person.begin() + 1, by_person.end());
     FollowedPerson& owner = *people_[static_cast<std::size_t>(most - by_person.begin() - 1)];
     if (owner.IsDoubtful() || HasStrayHead(region)) {
-      owner.AddRivals(starter_.Find(view_, regions, region, {&owner.model()}).poses);
+      owner.AddRivals(starter_.FindRivals(view_, regions, region, owner.model()));
     }
     return;
   }

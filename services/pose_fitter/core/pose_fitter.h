@@ -27,8 +27,8 @@ struct PoseFitterConfig {
   double guessed_sigma_m = 0.06;  ///< Of a stature that is told from the height of the head.
   double search_s = 0.3;          ///< How often new people are looked for.
   double most_taken = 0.3;        ///< Share of a region that those who are followed may have of it.
-  double least_moved = 0.05;      ///< Share of a region that has moved since people were last looked
-                                  ///< for, of who is explained badly: furniture does not.
+  double least_moved = 0.05;  ///< Share of a region that has moved since people were last looked
+                              ///< for, of who is explained badly: furniture does not.
   SoundDepthConfig sound;
   FloorTrackerConfig floor;
   PeopleFinderConfig people;

@@ -9,7 +9,8 @@
 namespace deixis::pose_fitter {
 namespace {
 
-constexpr double kHopeless = 1.3;       // Times the worst score: no other body mends it.
+constexpr double kHopeless = 1.3;  // Times the worst score: no other body mends it.
+constexpr double kSameTop_m = 0.1;
 constexpr double kSameHead_m = 0.25;    // Between the head of a pose and one that is seen.
 constexpr double kHeadMargin_m = 0.25;  // Heads nearer to the picture's edge may not be told.
 constexpr double kLowNoise_m = 0.015, kHighNoise_m = 0.04;
@@ -87,7 +88,7 @@ Starter::Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence
 Starts Starter::Find(const DepthView& view, const PeopleRegions& regions,
                      const PersonRegion& region,
                      const std::vector<const body_model::BodyModel*>& bodies) {
-  Starts best{FindWith(view, regions, region, *bodies.front()), 0};
+  Starts best{FindWith(view, regions, TopsOf(view, regions, region), *bodies.front()), 0};
   if (best.poses.empty() || BestOf(best.poses) > kHopeless * config_.worst_with_head) return {};
   const std::vector<Hypothesis> first = best.poses;
   for (std::size_t i = 1; i < bodies.size(); ++i) {
@@ -101,13 +102,31 @@ Starts Starter::Find(const DepthView& view, const PeopleRegions& regions,
   return best;
 }
 
+std::vector<Hypothesis> Starter::FindRivals(const DepthView& view, const PeopleRegions& regions,
+                                            const PersonRegion& region,
+                                            const body_model::BodyModel& model) {
+  auto tops_m = HeadTops(view, regions, region, config_.heads);
+  for (const Eigen::Vector3d& top_m : TopsOf(view, regions, region)) {
+    const bool is_there = std::any_of(tops_m.begin(), tops_m.end(), [&](const auto& other_m) {
+      return (other_m - top_m).norm() < kSameTop_m;
+    });
+    if (!is_there) tops_m.push_back(top_m);
+  }
+  auto poses = FindWith(view, regions, tops_m, model);
+  const auto is_nobody = [this](const Hypothesis& pose) {
+    return pose.mean_score > std::max(pose.worst_score, config_.worst_score);
+  };
+  poses.erase(std::remove_if(poses.begin(), poses.end(), is_nobody), poses.end());
+  return poses;
+}
+
 std::vector<Hypothesis> Starter::FindWith(const DepthView& view, const PeopleRegions& regions,
-                                          const PersonRegion& region,
+                                          const std::vector<Eigen::Vector3d>& tops_m,
                                           const body_model::BodyModel& model) {
   first_.emplace(first_fit_, model);
   second_.emplace(second_fit_, model);
   std::optional<Hypothesis> facing, turned;
-  for (const Eigen::Vector3d& top_m : TopsOf(view, regions, region)) {
+  for (const Eigen::Vector3d& top_m : tops_m) {
     for (const body_model::BodyPose& guess : StartPoses(model, top_m, regions.floor)) {
       auto start = Try(view, regions, guess);
       if (!start) continue;

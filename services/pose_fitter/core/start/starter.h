@@ -77,11 +77,17 @@ class Starter {
   Starts Find(const DepthView& view, const PeopleRegions& regions, const PersonRegion& region,
               const std::vector<const body_model::BodyModel*>& bodies);
 
+  /// Other poses of somebody who is known to be there, and whose head may not be told just now.
+  std::vector<Hypothesis> FindRivals(const DepthView& view, const PeopleRegions& regions,
+                                     const PersonRegion& region,
+                                     const body_model::BodyModel& model);
+
  private:
   std::optional<Hypothesis> Try(const DepthView& view, const PeopleRegions& regions,
                                 const body_model::BodyPose& guess);
   std::vector<Hypothesis> FindWith(const DepthView& view, const PeopleRegions& regions,
-                                   const PersonRegion& region, const body_model::BodyModel& model);
+                                   const std::vector<Eigen::Vector3d>& tops_m,
+                                   const body_model::BodyModel& model);
   std::vector<Hypothesis> Wear(const DepthView& view, const PeopleRegions& regions,
                                const std::vector<Hypothesis>& starts,
                                const body_model::BodyModel& before,
