@@ -86,16 +86,24 @@ TEST_F(FloorTrackerTest, SaysNothingWhereOnlyPeopleAreSeen) {
   EXPECT_FALSE(See(room));
 }
 
-TEST_F(FloorTrackerTest, SaysNothingOfAPlaneThatSurfacesOnlyPassThrough) {
+TEST_F(FloorTrackerTest, SaysNothingOfAPlaneThatASurfaceOnlySwingsAbout) {
   Room room;
-  room.has_floor = false;
-  room.wall_m = 3.4;
-  for (int row = 0; row < 3; ++row) {
-    for (int i = -2; i <= 2; ++i) {
-      room.Add(test::Ball{{0.55 * i, 2.0 + 0.4 * row, 0.25 + 0.2 * row}, 0.3});
+  room.pitch_rad = 0.5;
+  test::Picture picture = test::Look(room, 320, 0.003);
+  const body_model::Floor plane = room.Floor();
+  for (const double swing_m : {0.0, 0.07}) {
+    for (int v = 0; v < picture.depth_mm.rows; ++v) {
+      for (int u = 0; u < picture.depth_mm.cols; ++u) {
+        const double towards = -plane.normal.dot(picture.camera.Ray(u, v));
+        const double off_m = swing_m * std::sin(0.12 * u);
+        const double z_m = towards > 0.0 ? (plane.offset_m - off_m) / towards : 0.0;
+        picture.depth_mm.at<std::uint16_t>(v, u) =
+            static_cast<std::uint16_t>(z_m < 6.0 ? 1000.0 * z_m : 0.0);
+      }
     }
+    tracker_.Reset();
+    EXPECT_EQ(See(picture).has_value(), swing_m == 0.0) << swing_m;
   }
-  EXPECT_FALSE(See(room));
 }
 
 TEST_F(FloorTrackerTest, SaysNothingOfNothing) {
