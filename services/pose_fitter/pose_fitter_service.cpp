@@ -1,6 +1,8 @@
 #include "services/pose_fitter/pose_fitter_service.h"
 
 #include "common/messages/body_poses.h"
+#include "common/messages/hands.h"
+#include "common/messages/objects.h"
 #include "common/messages/person_model.h"
 #include "common/messages/stereo_calibration.h"
 #include "common/messages/stereo_image.h"
@@ -25,6 +27,8 @@ void PoseFitterServiceConfig::Validate() const {
   const auto channel_faults =
       transport::ChannelFaults({{"stereo_channel", stereo_channel},
                                 {"calibration_channel", calibration_channel},
+                                {"hands_channel", hands_channel},
+                                {"objects_channel", objects_channel},
                                 {"model_channel", model_channel},
                                 {"poses_channel", poses_channel}});
   for (const auto& [key, fault] : channel_faults) faults.Require(false, key, fault);
@@ -38,6 +42,10 @@ PoseFitterService::PoseFitterService(const PoseFitterServiceConfig& config, tran
   input.Subscribe<geometry::StereoCalibration>(
       config.calibration_channel, Delivery::kEvery,
       [this](const geometry::StereoCalibration& calibration) { calibration_ = calibration; });
+  input.Subscribe<scene::Hands>(config.hands_channel, Delivery::kEvery,
+                                [this](const scene::Hands& hands) { fitter_.See(hands); });
+  input.Subscribe<scene::Objects>(config.objects_channel, Delivery::kEvery,
+                                  [this](const scene::Objects& objects) { fitter_.See(objects); });
   input.Subscribe<images::StereoImage>(
       config.stereo_channel, Delivery::kLatest,
       [this](const images::StereoImage& stereo) { OnStereo(stereo); });

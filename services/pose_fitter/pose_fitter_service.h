@@ -14,6 +14,8 @@ namespace deixis::pose_fitter {
 struct PoseFitterServiceConfig {
   std::string stereo_channel = "STEREO";                   ///< Depth comes from here.
   std::string calibration_channel = "STEREO_CALIBRATION";  ///< Its camera.
+  std::string hands_channel = "HAND_TRACKS";               ///< Hands in its picture, if known.
+  std::string objects_channel = "OBJECTS";                 ///< Faces likewise.
   std::string model_channel = "BODY_MODEL";                ///< Models of the people go here.
   std::string poses_channel = "BODY_POSES";                ///< One message per depth image.
   PoseFitterConfig fitter;
@@ -22,6 +24,8 @@ struct PoseFitterServiceConfig {
   void Visit(Visitor& v) {
     v("stereo_channel", stereo_channel);
     v("calibration_channel", calibration_channel);
+    v("hands_channel", hands_channel);
+    v("objects_channel", objects_channel);
     v("model_channel", model_channel);
     v("poses_channel", poses_channel);
     v("fitter", fitter);

@@ -6,5 +6,6 @@ int main(int argc, char** argv) {
   using deixis::viewer::ViewerService;
   using deixis::viewer::ViewerServiceConfig;
   return deixis::program::RunService<ViewerService, ViewerServiceConfig>(
-      {"viewer", "Draws objects, hands and gestures on the camera's pictures."}, argc, argv);
+      {"viewer", "Draws people, objects, hands and gestures on the camera's pictures."}, argc,
+      argv);
 }

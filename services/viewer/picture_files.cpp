@@ -52,6 +52,10 @@ void PictureFiles::WriteGesture(const scene::Gesture& gesture, const cv::Mat& bg
 
 void PictureFiles::WriteLatest(const cv::Mat& bgr) const { Write("latest.png", bgr); }
 
+void PictureFiles::WriteStill(Timestamp time, const cv::Mat& bgr) const {
+  Write("picture_" + std::to_string(time.microseconds) + ".png", bgr);
+}
+
 void PictureFiles::Write(const std::string& name, const cv::Mat& bgr) const {
   const fs::path unfinished = folder_ / ("." + name + ".part");
   std::error_code error;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/scene/gesture.h"
+#include "common/time/timestamp.h"
 
 namespace deixis::viewer {
 
@@ -14,8 +15,8 @@ class PictureNotWritten : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes pictures to a folder: one per gesture, and the latest one. A picture that cannot be
-/// written whole leaves nothing behind and throws PictureNotWritten.
+/// Writes pictures to a folder: one per gesture, the latest one, and some that are kept. A picture
+/// that cannot be written whole leaves nothing behind and throws PictureNotWritten.
 class PictureFiles {
  public:
   /// Throws ConfigError when the folder cannot be made.
@@ -25,6 +26,8 @@ class PictureFiles {
   void WriteGesture(const scene::Gesture& gesture, const cv::Mat& bgr) const;
   /// latest.png, replaced in one step, so that a reader never sees half a picture.
   void WriteLatest(const cv::Mat& bgr) const;
+  /// picture_<time in microseconds>.png
+  void WriteStill(Timestamp time, const cv::Mat& bgr) const;
 
  private:
   void Write(const std::string& name, const cv::Mat& bgr) const;

@@ -1,7 +1,8 @@
 """Stands in for the programs of the demonstration; the name that it is called by says for which.
 
 The camera publishes 20 pictures, 50 ms apart; the recogniser sees a lamp pointed at in the fifth and
-a phone in the tenth. DEIXIS_FAKE=blind: the recogniser sees nothing; broken: it does not start.
+a phone in the tenth, the fitter somebody in each. DEIXIS_FAKE=blind: the recogniser sees nothing; broken: it does not
+start; empty: the fitter sees nobody.
 """
 
 from __future__ import annotations
@@ -14,10 +15,11 @@ from collections.abc import Iterator
 
 import fake_service
 import lcm
-from deixis import candidate_t, gesture_t
+from deixis import body_pose_t, body_poses_t, candidate_t, gesture_t, limb_pose_t
 
 PICTURES = 20
 PERIOD_US = 50_000
+PICTURES_OF = {"deixis-camera-driver": "CAMERA", "deixis-stereo-driver": "STEREO"}
 SEEN = {5: "lamp", 10: "phone"}  # by number of the picture
 
 
@@ -29,8 +31,8 @@ def main(program: str) -> None:
         return
     arguments, _ = fake_service.read_arguments()
     if arguments.lcm_url.startswith("file://"):
-        if program == "deixis-camera-driver":
-            write_log(arguments.lcm_url.removeprefix("file://").partition("?")[0])
+        if program in PICTURES_OF:
+            write_log(arguments.lcm_url.removeprefix("file://").partition("?")[0], PICTURES_OF[program])
         return
     if program == "deixis-gesture-recogniser" and mode == "broken":
         sys.exit("gesture_recogniser.yaml:1: nonsense")
@@ -41,25 +43,28 @@ def serve(service: str, arguments: object, mode: str) -> None:
     """Speaks on SERVICE_STATUS and does what the service is there for, until it is stopped."""
     bus = lcm.LCM(arguments.lcm_url)
     if service == "gesture_recogniser":
-        bus.subscribe("CAMERA", lambda _, data: [bus.publish("GESTURES", message)
-                                                 for message in seen_in(data, mode)])
+        bus.subscribe("CAMERA|STEREO", lambda _, data: [bus.publish("GESTURES", message)
+                                                        for message in seen_in(data, mode)])
+    if service == "pose_fitter":
+        bus.subscribe("STEREO", lambda _, data: bus.publish("BODY_POSES", fitted_to(data, mode)))
+    channel = PICTURES_OF.get(f"deixis-{service.replace('_', '-')}")
     start = time.time_ns() // 1000
     for number in range(10**6):
         bus.publish("SERVICE_STATUS", fake_service.status(arguments, {"service": service}).encode())
-        if service == "camera_driver":
+        if channel:
             if number == PICTURES:
                 return
-            bus.publish("CAMERA", picture(start + number * PERIOD_US, number))
+            bus.publish(channel, picture(start + number * PERIOD_US, number))
         bus.handle_timeout(PERIOD_US // 1000)
-        if service == "camera_driver":
+        if channel:
             time.sleep(max(0.0, (start + (number + 1) * PERIOD_US) / 1e6 - time.time()))
 
 
-def write_log(path: str) -> None:
-    """What the camera driver writes."""
+def write_log(path: str, channel: str) -> None:
+    """What a driver writes."""
     log = lcm.EventLog(path, "w", overwrite=True)
     for number in range(PICTURES):
-        log.write_event(number * PERIOD_US, "CAMERA", picture(number * PERIOD_US, number))
+        log.write_event(number * PERIOD_US, channel, picture(number * PERIOD_US, number))
     log.close()
 
 
@@ -70,6 +75,8 @@ def work_through_log(source: str, target: str, mode: str) -> None:
         log.write_event(event.timestamp, event.channel, event.data)
         for message in seen_in(event.data, mode):
             log.write_event(event.timestamp, "GESTURES", message)
+        if event.channel == "STEREO":
+            log.write_event(event.timestamp, "BODY_POSES", fitted_to(event.data, mode))
     log.close()
 
 
@@ -84,6 +91,20 @@ def seen_in(data: bytes, mode: str) -> Iterator[bytes]:
     if number in SEEN and mode != "blind":
         yield gesture(utime, number).encode()
         yield gesture(utime + 1, number).encode()  # Its end: the same event once more.
+
+
+def fitted_to(data: bytes, mode: str) -> bytes:
+    """Somebody of two limbs, one of which is measured."""
+    message = body_poses_t()
+    _, message.utime, _ = struct.unpack(">qqq", data)
+    message.floor_plane = [0.0] * 4
+    if mode != "empty":
+        body = body_pose_t()
+        body.person_id, body.state, body.n_limbs = 4, body_pose_t.TRACKED, 2
+        body.limbs = [limb_pose_t(), limb_pose_t()]
+        body.limbs[0].state, body.limbs[1].state = limb_pose_t.MEASURED, limb_pose_t.HIDDEN
+        message.n_bodies, message.bodies = 1, [body]
+    return message.encode()
 
 
 def gesture(utime: int, number: int) -> gesture_t:

@@ -9,9 +9,12 @@ from pathlib import Path
 
 import pytest
 
+from deixis_frontend import layout
+from deixis_frontend.demo.clip import open_clip
+
 HERE = Path(__file__).resolve().parent
-PROGRAMS = ("camera-driver", "object-detector", "hand-tracker", "gesture-recogniser", "viewer",
-            "offline")
+PROGRAMS = ("camera-driver", "stereo-driver", "object-detector", "hand-tracker", "gesture-recogniser",
+            "pose-fitter", "viewer", "offline")
 LABELS = """start_frame,apex_frame,end_frame,hand,object_id,retract_end_frame,object_label
 3,4,6,right,5,7,lamp
 9,10,12,right,0,13,cup
@@ -34,6 +37,11 @@ class Theatre:
         (folder / "clip").mkdir()
         (folder / "clip" / "left.mp4").touch()
         (folder / "clip" / "gestures.csv").write_text(LABELS, encoding="ascii")
+
+    def add_second_camera(self) -> None:
+        """From then on the clip is one of a stereo rig."""
+        for name in ("right.mp4", "intrinsics.yml", "extrinsics.yml"):
+            (self._folder / "clip" / name).touch()
 
     def play(self, *arguments: str, prefix: tuple[str, ...] = (),
              mode: str = "") -> subprocess.CompletedProcess[str]:
@@ -102,6 +110,52 @@ def test_without_multicast_it_runs_in_one_process_and_names_the_cure(
     assert "ip route add 224.0.0.0/4 dev lo" in result.stdout
     assert "    0.2 s  pointing: lamp (88%), right hand\n" in result.stdout
     assert "1 of 2 pointing gestures were named right" in result.stdout
+
+
+BODY = "1 person found (1 in all), somebody in 100% of "
+LIMBS = " pictures; person 4: 1.0 of 2 limbs measured"
+
+
+def test_a_clip_of_two_cameras_shows_bodies_and_how_old_they_were(theatre: Theatre) -> None:
+    theatre.add_second_camera()
+    result = theatre.play()
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert BODY in result.stdout and LIMBS + "; bodies were " in result.stdout
+    assert "1 of 2 pointing gestures were named right" in result.stdout
+    assert "stereo_driver" in result.stdout and "camera_driver" not in result.stdout
+
+
+def test_it_fails_when_no_body_is_found_where_one_could_be(theatre: Theatre) -> None:
+    theatre.add_second_camera()
+    result = theatre.play(mode="empty")
+    assert result.returncode == 1
+    assert "no body was fitted in " in result.stdout
+    assert "no body was found: see the logs in" in result.stderr
+    assert theatre.play("--seconds", "0.3", mode="empty").returncode == 0, "cut off before one can be expected"
+
+
+def test_without_multicast_bodies_are_fitted_in_one_process(
+        theatre: Theatre, without_multicast: list[str]) -> None:
+    theatre.add_second_camera()
+    result = theatre.play(prefix=tuple(without_multicast))
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert BODY + "20" + LIMBS + "\n" in result.stdout
+    assert "1 of 2 pointing gestures were named right" in result.stdout
+
+
+def test_the_clip_that_is_shipped_has_two_cameras() -> None:
+    clip = open_clip(None, layout.find())
+    assert clip.is_stereo
+    assert clip.watchers()["hand_tracker"] == {"image_channel": "STEREO"}
+
+
+def test_another_video_beside_a_pair_is_one_of_one_camera(tmp_path: Path) -> None:
+    for name in ("mine.mp4", "left.mp4", "right.mp4", "intrinsics.yml", "extrinsics.yml"):
+        (tmp_path / name).touch()
+    assert open_clip(tmp_path / "left.mp4", layout.find()).is_stereo
+    clip = open_clip(tmp_path / "mine.mp4", layout.find())
+    assert (clip.is_stereo, clip.driver, clip.channel) == (False, "camera_driver", "CAMERA")
+    assert clip.driver_settings()["source.path"] == str(tmp_path / "mine.mp4")
 
 
 def test_without_a_clip_it_says_which_one_is_missing(theatre: Theatre) -> None:

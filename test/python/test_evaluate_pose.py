@@ -16,7 +16,7 @@ from deixis_frontend import layout
 from deixis_frontend.cli import main
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import (
-    pose, pose_chain, pose_geometry, pose_matching, pose_outlines, pose_plots, pose_real, pose_report,
+    pose, pose_chain, pose_geometry, pose_matching, pose_outlines, pose_overlays, pose_plots, pose_real, pose_report,
     pose_results, pose_scores)
 from deixis_frontend.evaluation.pose_joints import INDEX, JOINTS, NAMES, JointPlace
 from deixis_frontend.evaluation.pose_matching import JudgedPerson, JudgedScene
@@ -344,7 +344,7 @@ def fitter_fixture(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, ...]]:
     """Stands for the programs: finds everybody, but for the first 6 frames. Returns the settings of each run."""
     asked: list[tuple[str, ...]] = []
 
-    def fit(_: Any, log: Path, __: Any, settings: tuple[str, ...], ___: Path) -> pose_chain.Fitted:
+    def fit(_: Any, log: Path, __: Any, settings: tuple[str, ...], *___: Any) -> pose_chain.Fitted:
         if log.name == "broken":
             raise UserError("deixis-offline failed: no room")
         asked.append(settings)
@@ -421,7 +421,7 @@ def programs_fixture(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
             Path(arguments[arguments.index("--times") + 1]).write_text(
                 "service,channel,time_us,cpu_us\npose_fitter,STEREO,0,5000\npose_fitter,STEREO_CALIBRATION,0,3\n"
                 "stereo_driver,STEREO_PAIR,0,20000\n")
-        else:
+        elif name == "deixis-stereo-driver":
             Path(arguments[-1].removeprefix("file://").removesuffix("?mode=w")).write_bytes(b"")
         return ""
 
@@ -455,6 +455,31 @@ def test_the_fitter_runs_alone_unless_more_is_asked_for(tmp_path: Path, programs
             "hand_tracker.image_channel=STEREO"} <= set(programs[1])
     pose_chain.fit(layout.find(), log, chain)  # Of a depth camera: there are no pairs.
     assert "object_detector,hand_tracker,pose_fitter" in programs[2]
+
+
+def test_overlays_are_drawn_by_the_viewer_from_all_that_came_of_a_log(tmp_path: Path, programs: list[list[str]],
+                                                                      monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pose_overlays, "run_program", pose_chain.run_program)
+    stale = tmp_path / "walk_told" / "picture_5.png"
+    stale.parent.mkdir()
+    stale.touch()
+    overlay = pose_overlays.Overlay(tmp_path, "walk_told", 15.0)
+    pose_chain.fit(layout.find(), tmp_path / "walk.lcmlog", pose_chain.Chain(), (), None, overlay)
+    offline, viewer = programs
+    assert "--results-only" not in offline, "the pictures are drawn on"
+    assert viewer[:3] == ["deixis-viewer", "--lcm-url", f"file://{offline[2]}?mode=r&speed=0"]
+    assert {"image_channel=STEREO", f"film={tmp_path}/walk_told.mp4", "film_rate_hz=15"} <= set(viewer)
+    assert not stale.exists(), "of an earlier run"
+
+
+def test_overlays_have_a_name_for_each_sequence_and_column(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+                                                           fitter: list[tuple[str, ...]]) -> None:
+    _write_sequence(tmp_path / "walk")
+    fit, overlays = pose_chain.fit, []
+    monkeypatch.setattr(pose_chain, "fit", lambda *a: (overlays.append(a[5]), fit(*a))[1])
+    assert main(["evaluate", "pose", "--data", str(tmp_path), "--overlays", str(tmp_path / "out")]) == 0
+    assert overlays == [pose_overlays.Overlay(tmp_path / "out", f"walk_{column}", FPS) for column in pose.COLUMNS]
+    assert len(fitter) == 2
 
 
 def test_what_is_described_is_what_is_reported(tmp_path: Path, fitter: list[tuple[str, ...]],

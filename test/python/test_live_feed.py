@@ -13,7 +13,7 @@ from front_end import status
 from deixis_frontend import layout, lcm_url, service_facts
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import live
-from deixis_frontend.evaluation.live import CONSUMERS, camera_feed, stereo_feed
+from deixis_frontend.evaluation.live import CONSUMERS, body_feed, camera_feed, stereo_feed
 
 PARTS = ("left.mp4", "right.mp4", "intrinsics.yml", "extrinsics.yml")
 
@@ -35,6 +35,18 @@ def test_a_pair_goes_through_the_stereo_driver(tmp_path: Path) -> None:
     assert f"source.right.path={tmp_path / 'right.mp4'}" in feed.settings
     assert "source.loop=true" in feed.settings
     assert f"calibration.extrinsics={tmp_path / 'extrinsics.yml'}" in feed.settings
+    assert feed.consumers["hand_tracker"] == ("image_channel=STEREO",)
+    assert feed.last == "gesture_recogniser"
+
+
+def test_bodies_are_fitted_to_pairs_that_a_camera_sends(tmp_path: Path) -> None:
+    for part in PARTS:
+        (tmp_path / part).touch()
+    feed = body_feed(tmp_path, 30.0, tmp_path / "pairs.lcmlog")
+    assert {"source.kind=pair_channel", "matcher.match_size=people",
+            f"calibration.intrinsics={tmp_path / 'intrinsics.yml'}"} == set(feed.settings) - {
+                f"calibration.extrinsics={tmp_path / 'extrinsics.yml'}"}
+    assert (feed.last, feed.pairs, feed.rate_hz) == ("pose_fitter", tmp_path / "pairs.lcmlog", 30.0)
 
 
 @pytest.mark.parametrize("missing", PARTS)
@@ -53,11 +65,14 @@ def test_a_source_that_falls_behind_is_told(tmp_path: Path, capsys: pytest.Captu
     facts = service_facts.as_facts(status("any"))
     services = {name: live._figures(facts, name, 50.0, None, pictures)
                 for name in (*CONSUMERS, "camera_driver")}
+    services["camera_driver"]["lost"] = 2
     clip = tmp_path / "clip.mp4"
     clip.touch()
     result = live._result(services, camera_feed(clip, 30.0), 30.0, 20.0)
-    live._print(result)
+    live._print(result | {"load_average": [0.5, 2.0], "bodies": None})
     assert (result["pictures_wanted"], result["source_fell_behind"]) == (600, is_behind)
+    each_ms = result["summary"]["camera_driver"]["cpu_ms_per_result"]  # Half of a core for 20 s.
+    assert each_ms == pytest.approx(10_000.0 / (pictures - 2))
     said = f"{pictures} of 600 pictures: the machine is too slow for 30 Hz; ages grow with it\n"
     assert (said in capsys.readouterr().out) == is_behind
 

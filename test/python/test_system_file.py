@@ -43,6 +43,16 @@ def test_the_shipped_file_is_read(repository: Path) -> None:
         "object_detector", "hand_tracker", "gesture_recogniser", "camera_driver"]
 
 
+def test_bodies_are_fitted_where_depth_is_seen_and_shown_when_asked_for(repository: Path) -> None:
+    system = load(repository / "config" / "system.yaml")
+    started = system.resolve(["stereo"])
+    assert started.index("pose_fitter") < started.index("stereo_driver") == len(started) - 1
+    assert system.services["stereo_driver"].settings["matcher.match_size"] == "people"
+    assert "pose_fitter" not in system.resolve(["pointing"])
+    shown = system.services["stereo_viewer"]
+    assert (shown.program, shown.settings["image_channel"]) == ("deixis-viewer", "STEREO")
+
+
 def test_everything_is_read(tmp_path: Path) -> None:
     system = read(tmp_path, GOOD)
     camera = system.services["camera_driver"]

@@ -9,9 +9,11 @@ namespace deixis::pose_fitter {
 namespace {
 
 constexpr std::size_t kMostPeople = 32;
+constexpr int kAlone = 4;  // While nobody is followed, there is so much more effort to find people.
 constexpr int kEdge_px = 2;  // Regions that are nearer to the picture's edge are cut.
 constexpr double kOtherStature = 1.3, kOtherBuild = 1.3;  // Standard deviations.
 constexpr double kMoved_m = 0.04, kMovedSigmas = 3.0;     // From here on a pixel has moved.
+constexpr double kHopeless = 1.3;    // Times the worst score: no other body mends it.
 constexpr double kSameHead_m = 0.3;  // Between the head of a body and one that is seen.
 constexpr double kShortest_m = 1.4, kTallest_m = 2.05;  // Statures that a head's height may tell.
 
@@ -24,7 +26,6 @@ void PoseFitterConfig::Validate() const {
   faults.Require(stature_sigma_m > 0.0, "stature_sigma_m", "must be positive");
   faults.Require(guessed_sigma_m > 0.0, "guessed_sigma_m", "must be positive");
   faults.Require(search_s >= 0.0, "search_s", "must not be negative");
-  faults.Require(least_moved >= 0.0 && least_moved <= 1.0, "least_moved", "must be 0..1");
   faults.Require(most_taken >= 0.0 && most_taken <= 1.0, "most_taken", "must be 0..1");
   faults.ThrowIfAny();
 }
@@ -34,37 +35,79 @@ PoseFitter::PoseFitter(const PoseFitterConfig& config)
       maker_(config.body_model),
       sound_(config.sound),
       floor_tracker_(config.floor),
+      background_(config.background),
       finder_(config.people),
       starter_(config.start, config.evidence, config.fit),
-      tracks_(config.tracks) {}
+      tracks_(config.tracks),
+      parts_(config.cues),
+      searched_(config.search_s) {}
 
 const body_model::BodyPoses& PoseFitter::Track(const images::DepthImage& image,
                                                const geometry::StereoCalibration& calibration) {
   view_.Update(DepthCameraOf(calibration, image.depth_mm.size()), image.depth_mm);
   const double time_s = 1e-6 * static_cast<double>(image.time.microseconds);
   const double seconds = last_time_ ? SecondsBetween(*last_time_, image.time) : 0.0;
-  if (seconds <= 0.0 || seconds > config_.tracks.hidden_time_s) {
-    people_.clear();
-    gone_.clear();
-  }
+  if (seconds <= 0.0 || seconds > config_.tracks.hidden_time_s) Forget();
   last_time_ = image.time;
   const auto& is_sound = sound_.Find(view_);
   floor_ = floor_tracker_.Update(view_, is_sound, time_s);
-  FollowAll(seconds, time_s);
-  FindNew(is_sound, time_s);
+  const auto& published = calibration.rectified;
+  ShareCues(parts_.At(image.time, image.camera,
+                      Eigen::Vector2d(published.width_px, published.height_px), view_));
+  const auto& foreground = background_.Foreground(view_, is_sound);
+  FollowAll(foreground, seconds, time_s);
+  FindNew(foreground, time_s);
+  LearnRoom(is_sound, seconds);
   Number(time_s);
   Report(image);
   return poses_;
 }
 
-void PoseFitter::FollowAll(double seconds, double time_s) {
+// Each goes to the person who is nearest to it in reaches, if anybody can have it: at the distance
+// that is measured there, or, when that is of something before or behind, at any.
+void PoseFitter::ShareCues(const std::vector<PartCue>& cues) {
+  free_cues_.clear();
+  own_cues_.resize(people_.size());
+  for (auto& own : own_cues_) own.clear();
+  for (PartCue cue : cues) {
+    auto* owner = OwnerOf(cue);
+    if (owner == nullptr && cue.distance_m) {
+      cue.distance_m.reset();
+      cue.trust = std::min(cue.trust, config_.cues.elsewhere_trust);
+      owner = OwnerOf(cue);
+    }
+    (owner == nullptr ? free_cues_ : *owner).push_back(cue);
+  }
+}
+
+std::vector<PartCue>* PoseFitter::OwnerOf(const PartCue& cue) {
+  std::vector<PartCue>* owner = nullptr;
+  double least = 1.0;
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    const double reaches = people_[i]->Reaches(cue);
+    if (reaches > least) continue;
+    least = reaches;
+    owner = &own_cues_[i];
+  }
+  return owner;
+}
+
+// What limbs are on is no room, however long they stay there.
+void PoseFitter::LearnRoom(const std::vector<std::uint8_t>& is_sound, double seconds) {
+  occupied_.assign(view_.z_m().size(), 0);
+  for (const auto& person : people_) person->MarkLimbs(occupied_);
+  background_.Learn(view_, is_sound, occupied_, seconds);
+}
+
+void PoseFitter::FollowAll(const std::vector<std::uint8_t>& foreground, double seconds,
+                           double time_s) {
   const auto is_forgotten = [&](const GonePerson& one) {
     return time_s < one.time_s || time_s - one.time_s > config_.tracks.hidden_time_s;
   };
   gone_.erase(std::remove_if(gone_.begin(), gone_.end(), is_forgotten), gone_.end());
   taken_.assign(view_.z_m().size(), 0);
   for (std::size_t i = 0; i < people_.size(); ++i) {
-    people_[i]->Follow(view_, floor_, taken_, seconds);
+    people_[i]->Follow(view_, floor_, {&taken_, &foreground, &own_cues_[i]}, seconds);
     Take(i);
   }
   const auto gone = [this](const auto& person) {
@@ -92,15 +135,103 @@ void PoseFitter::Take(std::size_t person) {
   }
 }
 
+// What there is to do is spread over images: the search goes on in the next one until all regions
+// had their turn, and then begins anew some time later.
 void PoseFitter::FindNew(const std::vector<std::uint8_t>& is_sound, double time_s) {
-  if (last_search_s_ && time_s >= *last_search_s_ && time_s - *last_search_s_ < config_.search_s) {
-    return;
-  }
-  last_search_s_ = time_s;
+  const bool is_due =
+      !last_search_s_ || time_s < *last_search_s_ || time_s - *last_search_s_ >= config_.search_s;
+  if (!is_due && !quest_) return;
   finder_.Find(view_, is_sound, floor_);
   SeeHeads();
-  for (const PersonRegion& region : finder_.regions().regions) Meet(region);
-  searched_m_ = view_.z_m();
+  NoteDepth(time_s);
+  Effort effort{people_.empty() ? kAlone * config_.start.effort : config_.start.effort};
+  if (quest_) Search(time_s, effort);
+  for (const PersonRegion& region : finder_.regions().regions) {
+    if (effort.left <= 0) return;
+    Meet(region, time_s, effort);
+  }
+  if (!quest_) last_search_s_ = time_s;
+}
+
+// A region that nobody has yet may be somebody new; one of a person who is badly explained may tell
+// of another pose.
+void PoseFitter::Meet(const PersonRegion& region, double time_s, Effort& effort) {
+  if (!searched_.IsDue(region.centroid_m, time_s)) return;
+  std::vector<int> by_person(kMostPeople + 1, 0);
+  const int taken = TakenPixels(region, by_person);
+  const PeopleRegions& regions = finder_.regions();
+  if (taken > config_.most_taken * region.pixel_count) {
+    const auto most = std::max_element(by_person.begin() + 1, by_person.end());
+    const FollowedPerson& owner = *people_[static_cast<std::size_t>(most - by_person.begin() - 1)];
+    if (owner.id < 0 || !(owner.IsDoubtful() || HasStrayHead(region))) return;
+    quest_ = {region.centroid_m, {}, owner.id, false};
+    starter_.Begin(view_, regions, region, owner.model(), Sought::kOtherPoses);
+  } else {
+    if (people_.size() >= kMostPeople) return;
+    quest_ = {region.centroid_m, BodiesOf(region), -1, MovedShare(region) >= config_.least_moved};
+    starter_.Begin(view_, regions, region, quest_->bodies.front().model);
+  }
+  Search(time_s, effort);
+}
+
+void PoseFitter::Search(double time_s, Effort& effort) {
+  starter_.Advance(view_, finder_.regions(), effort);
+  if (starter_.IsBusy()) return;
+  Conclude(time_s);
+  quest_.reset();
+}
+
+void PoseFitter::Conclude(double time_s) {
+  auto starts = starter_.TakeFound();
+  if (quest_->bodies.empty()) {
+    DropNobodies(starts);
+    for (const auto& person : people_) {
+      if (person->id == quest_->owner) person->AddRivals(std::move(starts));
+    }
+    searched_.NoteFound(quest_->centre_m, time_s);
+    return;
+  }
+  const std::size_t body = Dress(starts);
+  if (!starts.empty()) Recall(starts);
+  std::optional<FollowedPerson> somebody;
+  if (!starts.empty()) {
+    somebody.emplace(FollowSettings{config_.follow,
+                                    config_.start,
+                                    config_.limbs,
+                                    config_.evidence,
+                                    {config_.method, config_.fit, config_.limb_icp},
+                                    config_.shape},
+                     quest_->bodies[body], maker_.plan(), std::move(starts));
+  }
+  if (!somebody || IsOfSomebody(*somebody)) {
+    searched_.NoteInVain(quest_->centre_m, time_s);
+    return;
+  }
+  searched_.NoteFound(quest_->centre_m, time_s);
+  people_.push_back(std::make_unique<FollowedPerson>(std::move(*somebody)));
+  people_.back()->Look(view_, floor_);
+  Take(people_.size() - 1);
+}
+
+void PoseFitter::Forget() {
+  people_.clear();
+  gone_.clear();
+  noted_time_s_.reset();
+  noted_m_.clear();
+  moved_from_m_.clear();
+  quest_.reset();
+  searched_.Clear();
+  last_search_s_.reset();
+}
+
+/// For what has moved since about the last search.
+void PoseFitter::NoteDepth(double time_s) {
+  if (noted_time_s_ && time_s >= *noted_time_s_ && time_s - *noted_time_s_ < config_.search_s) {
+    return;
+  }
+  noted_time_s_ = time_s;
+  moved_from_m_.swap(noted_m_);
+  noted_m_ = view_.z_m();
 }
 
 void PoseFitter::SeeHeads() {
@@ -112,40 +243,6 @@ void PoseFitter::SeeHeads() {
                              (*own_m - head.middle_m).norm() < kSameHead_m;
                     }));
   }
-}
-
-// A region that nobody has yet may be somebody new; one of a person who is badly explained may tell
-// of another pose.
-void PoseFitter::Meet(const PersonRegion& region) {
-  std::vector<int> by_person(kMostPeople + 1, 0);
-  const int taken = TakenPixels(region, by_person);
-  const PeopleRegions& regions = finder_.regions();
-  if (taken > config_.most_taken * region.pixel_count) {
-    const auto most = std::max_element(by_person.begin() + 1, by_person.end());
-    FollowedPerson& owner = *people_[static_cast<std::size_t>(most - by_person.begin() - 1)];
-    if (owner.IsDoubtful() || HasStrayHead(region)) {
-      owner.AddRivals(starter_.FindRivals(view_, regions, region, owner.model()));
-    }
-    return;
-  }
-  if (people_.size() >= kMostPeople) return;
-  const std::vector<PersonBody> bodies = BodiesOf(region);
-  std::vector<const body_model::BodyModel*> models;
-  for (const PersonBody& body : bodies) models.push_back(&body.model);
-  Starts starts = starter_.Find(view_, regions, region, models);
-  DropStill(region, starts.poses);
-  if (starts.poses.empty()) return;
-  Recall(starts.poses);
-  FollowedPerson somebody(FollowSettings{config_.follow,
-                                         config_.start,
-                                         config_.evidence,
-                                         {config_.method, config_.fit, config_.limb_icp},
-                                         config_.shape},
-                          bodies[starts.body], maker_.plan(), std::move(starts.poses));
-  if (IsOfSomebody(somebody)) return;
-  people_.push_back(std::make_unique<FollowedPerson>(std::move(somebody)));
-  people_.back()->Look(view_, floor_);
-  Take(people_.size() - 1);
 }
 
 /// Who was lost here and is found again looks where he looked: front and back are much alike.
@@ -166,25 +263,44 @@ void PoseFitter::Recall(std::vector<Hypothesis>& starts) const {
 /// Of the pixels of a region; 0 where nothing is known of before.
 double PoseFitter::MovedShare(const PersonRegion& region) const {
   const auto& labels = finder_.regions().labels;
-  if (searched_m_.size() != labels.size()) return 0.0;
+  if (moved_from_m_.size() != labels.size()) return 0.0;
   int moved = 0, known = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] != region.label || searched_m_[i] <= 0.0F) continue;
+    if (labels[i] != region.label || moved_from_m_[i] <= 0.0F) continue;
     const auto now_m = static_cast<double>(view_.z_m()[i]);
-    const double moved_m = std::abs(now_m - static_cast<double>(searched_m_[i]));
+    const double moved_m = std::abs(now_m - static_cast<double>(moved_from_m_[i]));
     ++known;
     moved += moved_m > kMoved_m + kMovedSigmas * view_.camera().noise.Sigma_m(now_m) ? 1 : 0;
   }
   return known > 0 ? static_cast<double>(moved) / known : 0.0;
 }
 
-/// Who is explained badly, but for the head, is somebody only if he moves.
-void PoseFitter::DropStill(const PersonRegion& region, std::vector<Hypothesis>& starts) const {
-  if (starts.empty() || MovedShare(region) >= config_.least_moved) return;
-  const auto is_nobody = [this](const Hypothesis& start) {
+/// Tries the start poses in the other bodies that the person may have; the one that suits best, and
+/// its poses in `starts`, none of which is left where nobody is there. Who is explained badly, but
+/// for the head, is somebody only if he moves.
+std::size_t PoseFitter::Dress(std::vector<Hypothesis>& starts) {
+  const auto best_of = [](const std::vector<Hypothesis>& poses) {
+    double best = 1e9;
+    for (const Hypothesis& pose : poses) best = std::min(best, pose.mean_score);
+    return best;
+  };
+  std::size_t body = 0;
+  const std::vector<Hypothesis> first = starts;
+  const bool is_hopeless = best_of(first) > kHopeless * config_.start.worst_with_head;
+  for (std::size_t i = 1; i < quest_->bodies.size() && !is_hopeless; ++i) {
+    auto poses = starter_.Wear(view_, finder_.regions(), first, quest_->bodies.front().model,
+                               quest_->bodies[i].model);
+    if (best_of(poses) > best_of(starts) - config_.start.better_body) continue;
+    starts = std::move(poses);
+    body = i;
+  }
+  DropNobodies(starts);
+  if (quest_->moves) return body;
+  const auto is_still = [this](const Hypothesis& start) {
     return start.mean_score > config_.start.worst_score;
   };
-  starts.erase(std::remove_if(starts.begin(), starts.end(), is_nobody), starts.end());
+  starts.erase(std::remove_if(starts.begin(), starts.end(), is_still), starts.end());
+  return body;
 }
 
 /// Whether it is a part of somebody who is followed already: its head would be below his.

@@ -49,6 +49,39 @@ void DrawDashes(cv::Point from, cv::Point to, const cv::Scalar& colour, int thic
   }
 }
 
+// Dashes go on round corners: an outline of many short edges is broken like one of few long ones.
+// What lies outside the picture is cut off first, however far it goes.
+void DrawDashedOutline(const std::vector<cv::Point>& corners, const cv::Scalar& colour,
+                       int thickness, double dash_px, cv::Mat& picture) {
+  double walked_px = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    cv::Point start = corners[i];
+    cv::Point end = corners[(i + 1) % corners.size()];
+    if (!cv::clipLine(picture.size(), start, end)) continue;
+    const cv::Point2d from = start;
+    const cv::Point2d way = end - start;
+    const double length_px = std::hypot(way.x, way.y);
+    for (double at_px = 0.0; at_px < length_px;) {
+      const double in_period_px = std::fmod(walked_px + at_px, 2.0 * dash_px);
+      const bool is_dash = in_period_px < dash_px;
+      const double rest_px = (is_dash ? dash_px : 2.0 * dash_px) - in_period_px;
+      const double end_px = std::min(length_px, at_px + std::max(rest_px, 0.5));
+      if (is_dash) {
+        DrawPath({from + way * (at_px / length_px), from + way * (end_px / length_px)}, colour,
+                 thickness, picture);
+      }
+      at_px = end_px;
+    }
+    walked_px += length_px;
+  }
+}
+
+std::vector<cv::Point> ToPoints(const std::vector<Eigen::Vector2d>& points_px) {
+  std::vector<cv::Point> points;
+  for (const Eigen::Vector2d& point_px : points_px) points.push_back(ToPoint(point_px));
+  return points;
+}
+
 std::vector<cv::Point> ArcPoints(const Eigen::Vector2d& centre_px, double radius_px,
                                  double start_rad, double end_rad) {
   constexpr int kSteps = 48;
@@ -166,14 +199,36 @@ void Canvas::DrawSector(const Eigen::Vector2d& centre_px, double radius_px, doub
                         double end_rad, const cv::Scalar& colour) {
   std::vector<cv::Point> outline = ArcPoints(centre_px, radius_px, start_rad, end_rad);
   if (end_rad - start_rad < 2.0 * M_PI - 1e-6) outline.push_back(ToPoint(centre_px));
+  TintWithin(outline, colour, kSectorOpacity);
+  cv::polylines(picture_, outline, true, colour, Thickness(1.0), cv::LINE_AA);
+}
+
+void Canvas::DrawOutline(const std::vector<Eigen::Vector2d>& points_px, const cv::Scalar& colour,
+                         double width, Stroke stroke) {
+  const std::vector<cv::Point> outline = ToPoints(points_px);
+  if (outline.size() < 2) return;
+  if (stroke == Stroke::kFull) {
+    cv::polylines(picture_, outline, true, colour, Thickness(width), cv::LINE_AA);
+    return;
+  }
+  DrawDashedOutline(outline, colour, Thickness(width), std::max(3.0, kDash_px * unit_px_),
+                    picture_);
+}
+
+void Canvas::Tint(const std::vector<Eigen::Vector2d>& points_px, const cv::Scalar& colour,
+                  double opacity) {
+  if (points_px.size() >= 3) TintWithin(ToPoints(points_px), colour, opacity);
+}
+
+void Canvas::TintWithin(const std::vector<cv::Point>& outline, const cv::Scalar& colour,
+                        double opacity) {
   const cv::Rect area = cv::boundingRect(outline) & cv::Rect({0, 0}, picture_.size());
   if (area.empty()) return;
   cv::Mat ground = picture_(area);
   cv::Mat tinted = ground.clone();
   cv::fillPoly(tinted, std::vector<std::vector<cv::Point>>{outline}, colour, cv::LINE_AA, 0,
                -area.tl());
-  cv::addWeighted(tinted, kSectorOpacity, ground, 1.0 - kSectorOpacity, 0.0, ground);
-  cv::polylines(picture_, outline, true, colour, Thickness(1.0), cv::LINE_AA);
+  cv::addWeighted(tinted, opacity, ground, 1.0 - opacity, 0.0, ground);
 }
 
 void Canvas::Darken(const cv::Rect& area) {

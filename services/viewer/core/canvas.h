@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <string>
+#include <vector>
 
 #include "common/scene/box.h"
 
@@ -26,6 +27,12 @@ class Canvas {
   void DrawDot(const Eigen::Vector2d& centre_px, double radius_px, const cv::Scalar& colour);
   void DrawArrow(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px,
                  const cv::Scalar& colour, double width);
+  /// A closed line through at least two points.
+  void DrawOutline(const std::vector<Eigen::Vector2d>& points_px, const cv::Scalar& colour,
+                   double width, Stroke stroke);
+  /// Covers what lies within an outline with a colour, opacity 0..1.
+  void Tint(const std::vector<Eigen::Vector2d>& points_px, const cv::Scalar& colour,
+            double opacity);
   /// A translucent sector from `start_rad` to `end_rad`, from x towards y.
   void DrawSector(const Eigen::Vector2d& centre_px, double radius_px, double start_rad,
                   double end_rad, const cv::Scalar& colour);
@@ -40,6 +47,7 @@ class Canvas {
  private:
   int Thickness(double width) const;
   void Darken(const cv::Rect& area);
+  void TintWithin(const std::vector<cv::Point>& outline, const cv::Scalar& colour, double opacity);
 
   cv::Mat picture_;
   double unit_px_;

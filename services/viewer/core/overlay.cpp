@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "services/viewer/core/body_overlay.h"
 #include "services/viewer/core/canvas.h"
 
 namespace deixis::viewer {
@@ -189,6 +190,7 @@ std::string DecisionText(const scene::Gesture& gesture) {
 cv::Mat DrawOverlay(const Scene& scene) {
   Canvas canvas(scene.image.bgr);
   DrawContexts(scene, canvas);
+  DrawBodies(scene, canvas);
   DrawObjects(scene, canvas);
   DrawHands(scene, canvas);
   DrawHypotheses(scene, canvas);

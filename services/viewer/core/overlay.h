@@ -7,8 +7,8 @@
 namespace deixis::viewer {
 
 /// The scene's picture with all that is known drawn on it: objects with label and probability,
-/// hands with id, side and velocity, the acting hand, where objects are looked for, and the
-/// decision. Lines and letters grow with the picture.
+/// hands with id, side and velocity, the acting hand, where objects are looked for, people's limbs,
+/// and the decision. Lines and letters grow with the picture.
 cv::Mat DrawOverlay(const Scene& scene);
 
 /// The decision in words: "pointing at: lamp 0.93".

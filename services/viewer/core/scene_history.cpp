@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/images/stereo_image.h"
+
 namespace deixis::viewer {
 namespace {
 
 constexpr double kSilentStream_s = 2.0;  // A service that is silent for longer is not waited for.
 constexpr std::size_t kMostResults = 60;
+constexpr std::size_t kMostModels = 64;  // People, and shapes of each while they are learned.
 
 template <typename Result>
 void Append(Result result, std::deque<Result>& results) {
@@ -56,6 +59,18 @@ void SceneHistory::Add(scene::Objects objects) { Append(std::move(objects), obje
 void SceneHistory::Add(scene::Hands hands) { Append(std::move(hands), hands_); }
 void SceneHistory::Add(scene::GestureState state) { Append(std::move(state), states_); }
 void SceneHistory::Add(scene::Gesture gesture) { decision_ = std::move(gesture); }
+void SceneHistory::Add(body_model::BodyPoses bodies) { Append(std::move(bodies), bodies_); }
+
+void SceneHistory::Add(body_model::PersonModel model) {
+  const auto is_same = [&](const auto& known) { return known.body.id() == model.body.id(); };
+  models_.erase(std::remove_if(models_.begin(), models_.end(), is_same), models_.end());
+  models_.push_back(std::move(model));
+  if (models_.size() > kMostModels) models_.pop_front();
+}
+
+void SceneHistory::Add(geometry::StereoCalibration calibration) {
+  calibration_ = std::move(calibration);
+}
 
 std::optional<Scene> SceneHistory::Take() {
   for (auto image = images_.rbegin(); image != images_.rend(); ++image) {
@@ -83,7 +98,7 @@ bool SceneHistory::HasPassed(Timestamp time) const {
 bool SceneHistory::IsComplete(const images::Image& image) const {
   const bool has_waited = SecondsBetween(image.time, images_.back().time) >= config_.max_delay_s;
   return has_waited || (HasAnswered(objects_, image.time) && HasAnswered(hands_, image.time) &&
-                        HasAnswered(states_, image.time));
+                        HasAnswered(states_, image.time) && HasAnswered(bodies_, image.time));
 }
 
 Scene SceneHistory::Compose(const images::Image& image) const {
@@ -96,7 +111,28 @@ Scene SceneHistory::Compose(const images::Image& image) const {
     const double age_s = SecondsBetween(decision_->time, image.time);
     if (age_s >= 0.0 && age_s <= config_.decision_shown_s) scene.decision = decision_;
   }
+  ComposeBodies(scene);
   return scene;
+}
+
+// Poses of another camera, or in a frame that is not its own, cannot be drawn here.
+void SceneHistory::ComposeBodies(Scene& scene) const {
+  const images::Image& image = scene.image;
+  auto bodies = NewestUntil(bodies_, image.time, config_.max_age_s);
+  if (!bodies || !calibration_) return;
+  const std::string& camera = calibration_->camera;
+  if (bodies->camera != camera || bodies->frame != camera || image.camera != camera) return;
+  const geometry::CameraCalibration& rectified = calibration_->rectified;
+  if (!images::MayCoverSameView(image.bgr.size(), {rectified.width_px, rectified.height_px})) {
+    return;
+  }
+  scene.camera = geometry::Scaled(rectified, image.bgr.cols, image.bgr.rows);
+  for (const body_model::PersonModel& model : models_) {
+    const bool is_used = std::any_of(bodies->bodies.begin(), bodies->bodies.end(),
+                                     [&](const auto& b) { return b.model_id == model.body.id(); });
+    if (is_used) scene.models.push_back(model);
+  }
+  scene.bodies = std::move(bodies);
 }
 
 void SceneHistory::Clear() {
@@ -104,6 +140,7 @@ void SceneHistory::Clear() {
   objects_.clear();
   hands_.clear();
   states_.clear();
+  bodies_.clear();
   decision_.reset();
   taken_.reset();
 }

@@ -1,8 +1,11 @@
 #pragma once
 #include <deque>
 #include <optional>
+#include <vector>
 
+#include "common/body_model/tracked_body.h"
 #include "common/config/config.h"
+#include "common/geometry/stereo_calibration.h"
 #include "common/images/image.h"
 #include "common/scene/gesture.h"
 #include "common/scene/hand.h"
@@ -16,7 +19,10 @@ struct Scene {
   std::optional<scene::Objects> objects;
   std::optional<scene::Hands> hands;
   std::optional<scene::GestureState> state;
-  std::optional<scene::Gesture> decision;  ///< The last one, while it is still news.
+  std::optional<scene::Gesture> decision;             ///< The last one, while it is still news.
+  std::optional<body_model::BodyPoses> bodies;        ///< Of this picture's camera only.
+  std::vector<body_model::PersonModel> models;        ///< Those of `bodies` that are known.
+  std::optional<geometry::CameraCalibration> camera;  ///< By which `bodies` are seen here.
 };
 
 struct SceneHistoryConfig {
@@ -48,6 +54,9 @@ class SceneHistory {
   void Add(scene::Hands hands);
   void Add(scene::GestureState state);
   void Add(scene::Gesture gesture);
+  void Add(body_model::BodyPoses bodies);
+  void Add(body_model::PersonModel model);
+  void Add(geometry::StereoCalibration calibration);
 
   /// The newest picture not yet taken whose results are there, or that has waited long enough.
   std::optional<Scene> Take();
@@ -63,6 +72,7 @@ class SceneHistory {
 
   bool IsComplete(const images::Image& image) const;
   Scene Compose(const images::Image& image) const;
+  void ComposeBodies(Scene& scene) const;
   void Clear();
 
   SceneHistoryConfig config_;
@@ -70,7 +80,10 @@ class SceneHistory {
   Results<scene::Objects> objects_;
   Results<scene::Hands> hands_;
   Results<scene::GestureState> states_;
+  Results<body_model::BodyPoses> bodies_;
   std::optional<scene::Gesture> decision_;
+  std::deque<body_model::PersonModel> models_;              ///< Hold whatever the time is.
+  std::optional<geometry::StereoCalibration> calibration_;  ///< The same.
   std::optional<Timestamp> taken_;
 };
 

@@ -101,8 +101,10 @@ TEST_F(BackgroundModelTest, ForgetsWhenTheCameraMoves) {
   EXPECT_EQ(See(room, 0.0), sound_.Find(view_));
 }
 
-TEST_F(BackgroundModelTest, IsOffUnlessConfigured) {
-  BackgroundModel off;
+TEST_F(BackgroundModelTest, CanBeSwitchedOff) {
+  BackgroundModelConfig config;
+  config.is_used = false;
+  BackgroundModel off(config);
   See(Room(), 0.0);
   const auto& is_sound = sound_.Find(view_);
   for (int i = 0; i < 100; ++i) off.Learn(view_, is_sound, {}, 0.1);

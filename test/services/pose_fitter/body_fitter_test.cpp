@@ -58,7 +58,7 @@ class BodyFitterTest : public ::testing::Test {
 
 TEST_F(BodyFitterTest, ComesBackFromSixtyMillimetresBeside) {
   for (const Vector3d& off_m :
-       {Vector3d(0.06, 0.0, 0.0), Vector3d(0.0, 0.04, 0.04), Vector3d(-0.035, -0.035, -0.035)}) {
+       {Vector3d(0.06, 0.0, 0.01), Vector3d(0.0, 0.04, 0.04), Vector3d(-0.035, -0.035, -0.035)}) {
     body_model::BodyPose pose = truth_;
     pose.frame_from_root.translation_m += off_m;
     ASSERT_GT(WorstJoint_m(pose), 0.05);

@@ -37,7 +37,7 @@ class FollowedPersonTest : public ::testing::Test {
   }
   void Show(FollowedPerson& person, const test::Picture& picture) {
     view_.Update(picture.camera, picture.depth_mm);
-    person.Follow(view_, room_.Floor(), taken_, kPeriod_s);
+    person.Follow(view_, room_.Floor(), {&taken_}, kPeriod_s);
   }
 
   test::Room room_;

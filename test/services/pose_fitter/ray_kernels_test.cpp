@@ -73,9 +73,9 @@ class RayKernelsTest : public ::testing::Test {
   }
   float ScoreOf(const Vector3d& point_m, int& winner) const {
     const Eigen::Vector3f point = point_m.cast<float>();
-    float score = kWorst;
-    ScoreLimb(surface_, 4, kAcross_m, One(point), {&score, &winner});
-    return score;
+    float score2 = kWorst;
+    ScoreLimb(surface_, 4, kAcross_m, One(point), {&score2, &winner});
+    return std::sqrt(score2);
   }
   LimbSums SumsOf(const Vector3d& point_m) const {
     const Eigen::Vector3f point = point_m.cast<float>();
@@ -86,7 +86,7 @@ class RayKernelsTest : public ::testing::Test {
 
   /// Of points 50 mm behind many limbs' sides, in depth: `distance_m` finds that, but for a few.
   template <typename Distance>
-  void ExpectFound(const Distance& distance_m) {
+  void ExpectFound(double most_wrong, const Distance& distance_m) {
     int met = 0, wrong = 0;
     for (int i = 0; i < 3000; ++i) {
       MakeLimb();
@@ -97,7 +97,7 @@ class RayKernelsTest : public ::testing::Test {
       wrong += std::abs(distance_m(point_m * (z_m / point_m.z()), normal) - 0.05) > 0.003;
     }
     EXPECT_GT(met, 300);
-    EXPECT_LT(wrong, met / 50);
+    EXPECT_LT(wrong, most_wrong * met);
   }
 
   body_model::BodyModel body_ = test::ClothedBody();
@@ -108,14 +108,14 @@ class RayKernelsTest : public ::testing::Test {
 };
 
 TEST_F(RayKernelsTest, MeasureLimbsWhereExactWalksAlongRaysFromBesideMeetThem) {
-  ExpectFound([this](const Vector3d& behind_m, const Vector3d& normal) {
+  ExpectFound(0.02, [this](const Vector3d& behind_m, const Vector3d& normal) {
     const double along_normal = std::abs(normal.dot(behind_m / behind_m.z()));
     return std::sqrt(static_cast<double>(SumsOf(behind_m).values[29])) / along_normal;
   });
 }
 
 TEST_F(RayKernelsTest, ScoreLimbsWhereExactWalksAlongRaysFromBesideMeetThem) {
-  ExpectFound([this](const Vector3d& behind_m, const Vector3d&) {
+  ExpectFound(0.04, [this](const Vector3d& behind_m, const Vector3d&) {
     int winner = -1;
     const float score = ScoreOf(behind_m, winner);
     EXPECT_EQ(winner, 4);
@@ -145,11 +145,11 @@ TEST_F(RayKernelsTest, GiveRaysThatPassByAboutTheDistanceOfTheirPoints) {
 TEST_F(RayKernelsTest, KeepABetterScoreOfAnotherLimb) {
   MakeLimb();
   const auto point = Eigen::Vector3f(5.0F, 5.0F, 1.0F);
-  float score = 0.001F;
+  float score2 = 0.001F;
   int winner = 2;
-  ScoreLimb(surface_, 4, kAcross_m, One(point), {&score, &winner});
+  ScoreLimb(surface_, 4, kAcross_m, One(point), {&score2, &winner});
   EXPECT_EQ(winner, 2);
-  EXPECT_FLOAT_EQ(score, 0.001F);
+  EXPECT_FLOAT_EQ(score2, 0.001F);
 }
 
 TEST_F(RayKernelsTest, PullAlongTheNormalByTheDistance) {

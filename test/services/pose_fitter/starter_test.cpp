@@ -15,7 +15,7 @@ class StarterTest : public ::testing::Test {
     view_.Update(picture.camera, picture.depth_mm);
     const auto& regions = finder_.Find(view_, sound_.Find(view_), room_.Floor());
     if (regions.regions.empty()) return {};
-    return starter_.Find(view_, regions, regions.regions[0], {&body_}).poses;
+    return starter_.Find(view_, regions, regions.regions[0], body_);
   }
   test::Picture WithPerson(const body_model::BodyPose& pose) {
     test::Picture picture = test::Look(room_, 240);
@@ -42,18 +42,19 @@ TEST_F(StarterTest, FindsTheRootOfSomebodyWhoStands) {
   EXPECT_LE(starts[0].mean_score, StarterConfig{}.worst_score);
 }
 
-TEST_F(StarterTest, TakesTheBodyThatSuitsThePerson) {
+TEST_F(StarterTest, WearsTheBodyThatSuitsThePersonBest) {
   const body_model::BodyModel small = test::ClothedBody(1.55), tall = test::ClothedBody(1.95);
   for (const auto* truth : {&small, &tall}) {
     test::Picture picture = test::Look(room_, 240);
     test::Draw(*truth, test::StandingIn(room_, *truth, 0.0, 2.8), 1, picture);
-    view_.Update(picture.camera, picture.depth_mm);
-    const auto& regions = finder_.Find(view_, sound_.Find(view_), room_.Floor());
-    ASSERT_FALSE(regions.regions.empty());
-    const Starts starts =
-        starter_.Find(view_, regions, regions.regions[0], {&body_, &small, &tall});
-    ASSERT_FALSE(starts.poses.empty());
-    EXPECT_EQ(starts.body, truth == &small ? 1U : 2U);
+    const auto starts = Find(picture);
+    ASSERT_FALSE(starts.empty());
+    const auto& regions = finder_.regions();
+    const auto in_small = starter_.Wear(view_, regions, starts, body_, small);
+    const auto in_tall = starter_.Wear(view_, regions, starts, body_, tall);
+    ASSERT_FALSE(in_small.empty());
+    ASSERT_FALSE(in_tall.empty());
+    EXPECT_EQ(in_small[0].mean_score < in_tall[0].mean_score, truth == &small);
   }
 }
 
@@ -68,6 +69,28 @@ TEST_F(StarterTest, SeesNobodyWithoutAHeadWhereOneShouldBeInThePicture) {
   const cv::Rect above(0, 0, 240, static_cast<int>(neck_px.y()));
   room.depth_mm(above).copyTo(picture.depth_mm(above));
   EXPECT_TRUE(Find(picture).empty());
+}
+
+TEST_F(StarterTest, FindsTheSameWhenItMayDoLittleInEachImage) {
+  const test::Picture picture = WithPerson(test::StandingIn(room_, body_, 0.2, 2.6));
+  const auto at_once = Find(picture);
+  const auto& regions = finder_.regions();
+  starter_.Begin(view_, regions, regions.regions[0], body_);
+  int images = 0, most = 0;
+  for (; starter_.IsBusy(); ++images) {
+    Effort effort{20000};
+    starter_.Advance(view_, regions, effort);
+    most = std::max(most, 20000 - effort.left);
+  }
+  EXPECT_GT(images, 5);
+  EXPECT_LT(most, 100000) << "no more than one pose beyond what is allowed";
+  auto found = starter_.TakeFound();
+  DropNobodies(found);
+  ASSERT_EQ(found.size(), at_once.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].mean_score, at_once[i].mean_score);
+    EXPECT_EQ(found[i].pose.angles_rad, at_once[i].pose.angles_rad);
+  }
 }
 
 TEST_F(StarterTest, ScoresABoxWorseThanAPersonOrOffersNobody) {
@@ -93,7 +116,7 @@ TEST_F(StarterTest, ScoresABoxWorseThanAPersonOrOffersNobody) {
   }
   ASSERT_GT(region.pixel_count, 1000);
   region.centroid_m /= region.pixel_count;
-  for (const Hypothesis& start : starter_.Find(view_, regions, region, {&body_}).poses) {
+  for (const Hypothesis& start : starter_.Find(view_, regions, region, body_)) {
     EXPECT_GT(start.mean_score, 0.3) << "a box looks like a person";
   }
 }

@@ -119,6 +119,88 @@ TEST_F(SceneHistoryTest, BeginsAnewWhenTimeGoesBack) {
   EXPECT_FALSE(scene->decision);
 }
 
+/// Pictures of a stereo rig, and people in them.
+class BodiesInHistoryTest : public SceneHistoryTest {
+ protected:
+  BodiesInHistoryTest() {
+    calibration_.camera = "STEREO";
+    calibration_.rectified.width_px = 4;
+    calibration_.rectified.height_px = 4;
+    calibration_.rectified.focal_px = {8.0, 8.0};
+  }
+  void AddLeft(int number) {
+    history_.Add(images::Image{Time(number), "STEREO", cv::Mat(2, 2, CV_8UC3)});
+  }
+  void AddBodies(int number, const std::string& camera = "STEREO") {
+    body_model::BodyPoses poses{Time(number), camera, camera, "", {}, {}};
+    poses.bodies.emplace_back().model_id = model_.body.id();
+    history_.Add(poses);
+  }
+  static body_model::PersonModel ModelOfLength(double length_m) {
+    body_model::Limb limb;
+    limb.name = "torso";
+    limb.shape = {0.1, 0.1, 0.1, 0.1, length_m};
+    return {{}, body_model::BodyModel("torso", {limb})};
+  }
+  geometry::StereoCalibration calibration_;
+  body_model::PersonModel model_ = ModelOfLength(0.5);
+};
+
+TEST_F(BodiesInHistoryTest, WaitsForThePeopleInThePicture) {
+  history_.Add(calibration_);
+  AddBodies(0);
+  AddLeft(1);
+  EXPECT_EQ(Taken(), -1);
+  AddBodies(1);
+  const auto scene = history_.Take();
+  ASSERT_TRUE(scene && scene->bodies);
+  EXPECT_EQ(scene->bodies->time, Time(1));
+}
+
+TEST_F(BodiesInHistoryTest, GivesTheModelsThatAreUsedAndTheLensOfThePicture) {
+  history_.Add(calibration_);
+  history_.Add(model_);
+  history_.Add(ModelOfLength(0.6));
+  AddBodies(1);
+  AddLeft(1);
+  const auto scene = history_.Take();
+  ASSERT_TRUE(scene && scene->camera);
+  ASSERT_EQ(scene->models.size(), 1u);
+  EXPECT_EQ(scene->models[0].body.id(), model_.body.id());
+  EXPECT_EQ(scene->camera->focal_px, Eigen::Vector2d(4.0, 4.0)) << "the picture is half as large";
+}
+
+TEST_F(BodiesInHistoryTest, ForgetsModelsOnlyWhenThereAreMany) {
+  history_.Add(calibration_);
+  history_.Add(model_);
+  for (int i = 0; i < 63; ++i) history_.Add(ModelOfLength(1.0 + 0.01 * i));
+  AddBodies(1);
+  AddLeft(1);
+  EXPECT_EQ(history_.Take()->models.size(), 1u);
+  history_.Add(ModelOfLength(2.0));
+  AddBodies(2);
+  AddLeft(2);
+  EXPECT_TRUE(history_.Take()->models.empty());
+}
+
+TEST_F(BodiesInHistoryTest, LeavesPeopleOutWhomThePictureDoesNotShow) {
+  AddBodies(1);
+  AddLeft(1);
+  EXPECT_FALSE(history_.Take()->bodies) << "no lens is known";
+  history_.Add(calibration_);
+  AddBodies(2, "OTHER");
+  AddLeft(2);
+  EXPECT_FALSE(history_.Take()->bodies) << "of another camera";
+  AddBodies(3);
+  AddImage(3);
+  EXPECT_FALSE(history_.Take()->bodies) << "the picture is of another camera";
+  calibration_.rectified.width_px = 9;
+  history_.Add(calibration_);
+  AddBodies(4);
+  AddLeft(4);
+  EXPECT_FALSE(history_.Take()->bodies) << "of another aspect";
+}
+
 TEST_F(SceneHistoryTest, KeepsNoMorePicturesThanItMay) {
   for (int i = 1; i <= 100; ++i) AddImage(i);
   EXPECT_FALSE(history_.From(Time(70)));

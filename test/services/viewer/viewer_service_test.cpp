@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
 
+#include "common/messages/body_poses.h"
 #include "common/messages/gesture.h"
 #include "common/messages/hands.h"
 #include "common/messages/image.h"
+#include "common/messages/person_model.h"
+#include "common/messages/stereo_calibration.h"
 #include "test/support/memory_bus.h"
 #include "test/support/temporary_folder.h"
 
@@ -136,6 +140,81 @@ TEST_F(ViewerServiceTest, SaysTheCureWhenThereIsNoDisplay) {
   config_.window = true;
   EXPECT_THAT([this] { ViewerService service(config_, bus_, bus_); },
               ThrowsMessage<config::ConfigError>(HasSubstr("no display")));
+}
+
+TEST_F(ViewerServiceTest, DrawsPeopleIntoThePictureOfTheirTime) {
+  config_.image_channel = "STEREO";
+  ViewerService service(config_, bus_, bus_);
+  geometry::StereoCalibration calibration;
+  calibration.camera = "STEREO";
+  calibration.rectified = geometry::GuessCalibration(64, 48, 1.0);
+  calibration.left = calibration.right = calibration.rectified;
+  calibration.right_from_left.translation_m = {-0.1, 0.0, 0.0};
+  calibration.disparity_sigma_px = 0.3;
+  body_model::Limb torso;
+  torso.name = "torso";
+  torso.shape = {0.2, 0.2, 0.2, 0.2, 0.5};
+  const body_model::PersonModel model{{1'000'000}, body_model::BodyModel("torso", {torso})};
+  body_model::BodyPoses poses{{1'000'000}, "STEREO", "STEREO", "", {}, {}};
+  body_model::TrackedBody& body = poses.bodies.emplace_back();
+  body.state = body_model::BodyState::kTracked;
+  body.pose = body_model::RestPose(model.body);
+  body.pose.frame_from_root.translation_m = {0.0, 0.0, 2.0};
+  body.limbs.resize(1);
+  body.limbs[0].state = body_model::LimbState::kMeasured;
+  body_model::Kinematics kinematics(model.body);
+  body_model::PlaceLimbs(kinematics, body);
+  bus_.Publish("STEREO_CALIBRATION", calibration);
+  bus_.Publish("BODY_MODEL", model);
+  bus_.Publish("BODY_POSES", poses);
+  bus_.Publish("STEREO", images::Image{{1'000'000}, "STEREO", cv::Mat::zeros(48, 64, CV_8UC3)});
+  test::HandleAll(bus_);
+  const cv::Mat picture = cv::imread((folder_.path() / "latest.png").string());
+  ASSERT_EQ(picture.size(), cv::Size(64, 48));
+  EXPECT_NE(picture.at<cv::Vec3b>(26, 32), cv::Vec3b()) << "within the torso";
+  EXPECT_EQ(picture.at<cv::Vec3b>(46, 2), cv::Vec3b());
+}
+
+TEST_F(ViewerServiceTest, KeepsAPictureFromTimeToTime) {
+  config_.stills_period_s = 2.0;
+  ViewerService service(config_, bus_, bus_);
+  for (const std::int64_t time_us : {1'000'000, 2'000'000, 3'000'000}) SendImage(time_us);
+  EXPECT_TRUE(Exists("picture_1000000.png"));
+  EXPECT_FALSE(Exists("picture_2000000.png"));
+  EXPECT_TRUE(Exists("picture_3000000.png"));
+}
+
+TEST_F(ViewerServiceTest, FilmsEveryPicture) {
+  config_.film = (folder_.path() / "film.mp4").string();
+  config_.film_rate_hz = 10.0;
+  {
+    ViewerService service(config_, bus_, bus_);
+    for (std::int64_t i = 1; i <= 20; ++i) SendImage(100'000 * i);
+    EXPECT_FALSE(service.health().is_degraded) << service.health().text;
+  }
+  cv::VideoCapture film(config_.film);
+  EXPECT_EQ(film.get(cv::CAP_PROP_FPS), 10.0);
+  int pictures = 0;
+  for (cv::Mat picture; film.read(picture); ++pictures) {
+    ASSERT_EQ(picture.size(), cv::Size(64, 48));
+  }
+  EXPECT_EQ(pictures, 20);
+}
+
+TEST_F(ViewerServiceTest, SaysWhenAPictureDoesNotFitIntoTheFilm) {
+  config_.film = (folder_.path() / "film.mp4").string();
+  ViewerService service(config_, bus_, bus_);
+  SendImage(1'000'000);
+  bus_.Publish("CAMERA", images::Image{{2'100'000}, "CAMERA", cv::Mat::zeros(96, 128, CV_8UC3)});
+  test::HandleAll(bus_);
+  EXPECT_TRUE(service.health().is_degraded);
+  EXPECT_THAT(service.health().text, HasSubstr("another size"));
+}
+
+TEST_F(ViewerServiceTest, RefusesAFilmThatCannotBeMade) {
+  config_.film = (folder_.path() / "nowhere" / "film.mp4").string();
+  EXPECT_THAT([this] { ViewerService service(config_, bus_, bus_); },
+              ThrowsMessage<config::ConfigError>(HasSubstr("film")));
 }
 
 TEST_F(ViewerServiceTest, NamesEveryFaultOfItsConfiguration) {

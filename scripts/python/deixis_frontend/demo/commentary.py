@@ -18,7 +18,7 @@ _SIDES = ("", ", left hand", ", right hand")
 
 
 class Commentary:
-    """Takes the bytes of CAMERA and GESTURES messages."""
+    """Takes the bytes of messages with pictures, and of GESTURES."""
 
     def __init__(self, clip: Clip, gesture_type: Any, seconds: float | None = None) -> None:
         """With `seconds`, what lies beyond so much of the clip is passed over."""
@@ -41,7 +41,7 @@ class Commentary:
         return len(self._events)
 
     def see_picture(self, data: bytes) -> None:
-        """Notes the time of a CAMERA message: the field after the fingerprint."""
+        """Notes the time of a message with a picture: the field after the fingerprint."""
         if len(data) < _UTIME_END:
             return
         (utime,) = struct.unpack_from(">q", data, 8)

@@ -1,4 +1,4 @@
-"""Plays a clip without a bus: the camera driver writes a log, one process works through it."""
+"""Plays a clip without a bus: its driver writes a log, one process works through it."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 
 from deixis_frontend.bus import import_lcm
 from deixis_frontend.commands.run_offline import offline_command
+from deixis_frontend.demo.bodies import Bodies
 from deixis_frontend.demo.clip import Clip
 from deixis_frontend.demo.commentary import Commentary
 from deixis_frontend.demo.stage import Stage
@@ -17,30 +18,31 @@ from deixis_frontend.errors import UserError
 from deixis_frontend.layout import Layout
 from deixis_frontend.programs import last_words
 
-_SERVICES = "object_detector,hand_tracker,gesture_recogniser"
 # Times as fast as recorded. The viewer takes the newest picture: at full speed it skips most.
 _VIEWER_SPEED = 4
 
 
-def play(clip: Clip, stage: Stage, commentary: Commentary) -> None:
+def play(clip: Clip, stage: Stage, commentary: Commentary, bodies: Bodies) -> None:
     """Runs the same services as when live, then tells what came out, with the clip's times."""
     recorded, results = stage.folder / "clip.lcmlog", stage.folder / "results.lcmlog"
     for path in (recorded, results):
         path.unlink(missing_ok=True)
-    camera = {**clip.camera_settings(), "pace": "as_fast_as_possible"}
-    _run(_on_log("deixis-camera-driver", f"{recorded}?mode=w", camera, stage.layout), stage)
-    settings = [f"object_detector.{key}={value}"
-                for key, value in clip.detector_settings().items()]
-    _run(offline_command(stage.layout, recorded, results, settings, _SERVICES), stage)
-    _tell(results, commentary)
-    _run(_on_log("deixis-viewer", f"{results}?mode=r&speed={_VIEWER_SPEED}", stage.viewer_settings,
-                 stage.layout), stage)
+    camera = {**clip.driver_settings(), "pace": "as_fast_as_possible"}
+    _run(_on_log(f"deixis-{clip.driver.replace('_', '-')}", f"{recorded}?mode=w", camera, stage.layout), stage)
+    watchers = clip.watchers()
+    settings = [f"{service}.{key}={value}" for service, some in watchers.items() for key, value in some.items()]
+    _run(offline_command(stage.layout, recorded, results, settings, ",".join(watchers)), stage)
+    _tell(results, clip.channel, commentary, bodies)
+    _run(_on_log("deixis-viewer", f"{results}?mode=r&speed={_VIEWER_SPEED}",
+                 stage.viewer_settings(clip), stage.layout), stage)
 
 
-def _tell(results: Path, commentary: Commentary) -> None:
+def _tell(results: Path, pictures: str, commentary: Commentary, bodies: Bodies) -> None:
     for channel, data in _events(results):
-        if channel == "CAMERA":
+        if channel == pictures:
             commentary.see_picture(data)
+        elif channel == "BODY_POSES":
+            bodies.hear(data)
         elif channel == "GESTURES":
             commentary.hear_gesture(data)
 

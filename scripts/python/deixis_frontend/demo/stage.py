@@ -5,7 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from deixis_frontend.demo.clip import Clip
 from deixis_frontend.layout import Layout
+
+# Bodies come later than hands on a small machine that does all of it; they shall be in the pictures all the same.
+_PATIENCE = {"history.max_delay_s": "1.5", "history.max_images": "60"}
 
 
 @dataclass(frozen=True)
@@ -21,10 +25,10 @@ class Stage:
         """Folder of the pictures with what was seen in them."""
         return self.folder / "pictures"
 
-    @property
-    def viewer_settings(self) -> dict[str, str]:
+    def viewer_settings(self, clip: Clip) -> dict[str, str]:
         """Settings with which the viewer saves the pictures."""
-        return {"save_folder": str(self.pictures), "window": str(self.has_window).lower()}
+        shown = {"save_folder": str(self.pictures), "window": str(self.has_window).lower()}
+        return {**shown, "image_channel": clip.channel, **(_PATIENCE if clip.is_stereo else {})}
 
     def clear(self) -> None:
         """Makes the folders; takes away the pictures of an earlier demonstration."""

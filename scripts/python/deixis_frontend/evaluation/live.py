@@ -1,19 +1,22 @@
-"""Runs the pointing chain live on a clip and measures what a robot would: loss, age, CPU, memory.
+"""Runs the pointing chain, or that of bodies, live on a clip and measures what a robot would: loss, age, CPU, memory.
 
 The services run as processes of their own on a private port of this machine, the clip in a loop at the
 rate that is asked for. With --stereo the pictures are matched on the way, and the chain works on the
-left one. The figures come from their SERVICE_STATUS and from /proc.
+left one. With --bodies a process in the place of a camera sends pairs; they are matched at full size where people are,
+and bodies fitted. The figures come from their SERVICE_STATUS and from /proc; how old depth and bodies are, from their
+messages as they arrive here.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
 import signal
 import subprocess
 import tempfile
 import time
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +24,8 @@ from deixis_frontend import layout, lcm_url
 from deixis_frontend.bus import open_bus
 from deixis_frontend.child_processes import end_with_parent
 from deixis_frontend.errors import UserError
-from deixis_frontend.evaluation import report_options
+from deixis_frontend.evaluation import live_camera, report_options
+from deixis_frontend.evaluation.live_arrivals import Arrivals, body_report, print_bodies
 from deixis_frontend.number_options import above_zero
 from deixis_frontend.process_facts import cpu_seconds, resident_bytes
 from deixis_frontend.programs import last_words
@@ -43,6 +47,19 @@ class Feed:
     channel: str
     settings: tuple[str, ...]
     name: str
+    consumers: dict[str, tuple[str, ...]] = field(default_factory=dict)  # and their settings
+    pairs: Path | None = None  # log of pairs that a camera sends to the driver; None: the driver plays videos
+    rate_hz: float = 0.0  # of those pairs
+
+    @property
+    def last(self) -> str:
+        """The service whose results are what the chain is there for."""
+        return list(self.consumers)[-1]
+
+
+def _pointing(channel: str) -> dict[str, tuple[str, ...]]:
+    looks = (f"image_channel={channel}",)
+    return {name: () if name == "gesture_recogniser" else looks for name in CONSUMERS}
 
 
 def camera_feed(clip: Path, rate_hz: float) -> Feed:
@@ -50,20 +67,28 @@ def camera_feed(clip: Path, rate_hz: float) -> Feed:
     if not clip.is_file():
         raise UserError(f"no clip {clip}: name one with --clip")
     settings = (*_video("source", clip, rate_hz), "source.loop=true")
-    return Feed("camera_driver", "CAMERA", settings, clip.name)
+    return Feed("camera_driver", "CAMERA", settings, clip.name, _pointing("CAMERA"))
 
 
 def stereo_feed(folder: Path, rate_hz: float) -> Feed:
     """Two videos in a loop with their calibration."""
     for name in ("left.mp4", "right.mp4", "intrinsics.yml", "extrinsics.yml"):
         if not (folder / name).is_file():
-            raise UserError(f"{folder} lacks {name}: --stereo takes a folder with left.mp4,"
+            raise UserError(f"{folder} lacks {name}: --stereo and --bodies take a folder with left.mp4,"
                             " right.mp4, intrinsics.yml and extrinsics.yml")
     settings = (*_video("source.left", folder / "left.mp4", rate_hz),
                 *_video("source.right", folder / "right.mp4", rate_hz), "source.loop=true",
                 f"calibration.intrinsics={(folder / 'intrinsics.yml').resolve()}",
                 f"calibration.extrinsics={(folder / 'extrinsics.yml').resolve()}")
-    return Feed("stereo_driver", "STEREO", settings, folder.name)
+    return Feed("stereo_driver", "STEREO", settings, folder.name, _pointing("STEREO"))
+
+
+def body_feed(folder: Path, rate_hz: float, pairs: Path) -> Feed:
+    """The same as pairs that are sent, matched at full size where people are; bodies are fitted as `start stereo` does."""
+    stereo = stereo_feed(folder, rate_hz)
+    calibration = tuple(s for s in stereo.settings if s.startswith("calibration."))
+    return replace(stereo, settings=("source.kind=pair_channel", *calibration, "matcher.match_size=people"),
+                   consumers={"pose_fitter": ()}, pairs=pairs, rate_hz=rate_hz)
 
 
 def _video(key: str, clip: Path, rate_hz: float) -> tuple[str, ...]:
@@ -78,6 +103,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     pictures.add_argument("--stereo", type=Path, metavar="DIR",
                           help="folder with left.mp4, right.mp4, intrinsics.yml, extrinsics.yml:"
                                " measure with the stereo driver")
+    pictures.add_argument("--bodies", type=Path, metavar="DIR",
+                          help="the same folder, sent pair by pair: measure stereo driver and pose fitter")
     parser.add_argument("--rate", type=above_zero, default=30.0, help="pictures per second (30)")
     parser.add_argument("--seconds", type=above_zero, default=60.0, help="how long to measure (60)")
     report_options.add_json(parser)
@@ -87,10 +114,9 @@ def run(arguments: argparse.Namespace) -> int:
     """0; raises UserError when a service does not get ready."""
     report_options.check(arguments)
     where = layout.find()
-    clip = arguments.clip or where.clips / "spread_01" / "left.mp4"
-    feed = (stereo_feed(arguments.stereo, arguments.rate) if arguments.stereo
-            else camera_feed(clip, arguments.rate))
     with tempfile.TemporaryDirectory() as folder:
+        feed = _feed(arguments, where, Path(folder))
+        load = [os.getloadavg()[0]]
         chain = _Chain(where, Path(folder), lcm_url.with_free_port(), feed)
         try:
             chain.start_consumers()
@@ -98,24 +124,40 @@ def run(arguments: argparse.Namespace) -> int:
             services = chain.measure(arguments.seconds)
         finally:
             chain.stop()
+    load.append(os.getloadavg()[0])
     result = _result(services, feed, arguments.rate, arguments.seconds)
+    result |= {"load_average": load, "bodies": body_report(chain.arrivals, result["pictures_wanted"]) if arguments.bodies else None}
     _print(result)
     report_options.write_json(arguments, result)
     return 0
 
 
+def _feed(arguments: argparse.Namespace, where: layout.Layout, scratch: Path) -> Feed:
+    if arguments.bodies:
+        pairs = live_camera.write_pairs(where, stereo_feed(arguments.bodies, arguments.rate).settings, scratch)
+        return body_feed(arguments.bodies, arguments.rate, pairs)
+    if arguments.stereo:
+        return stereo_feed(arguments.stereo, arguments.rate)
+    return camera_feed(arguments.clip or where.clips / "spread_01" / "left.mp4", arguments.rate)
+
+
 def _result(services: dict[str, dict[str, Any]], feed: Feed, rate_hz: float,
             seconds: float) -> dict[str, Any]:
-    """The figures of all services, and whether as many pictures came as were asked for."""
+    """The figures of all services, and whether as many pictures came as were asked for.
+
+    CPU time per result says what a service costs also where others load the machine, and it gets less than it wants.
+    """
     pictures, wanted = services[feed.driver]["pictures"], round(rate_hz * seconds)
-    return {"summary": services, "lost": services["gesture_recogniser"]["lost"],
+    rows = {name: {**row, "cpu_ms_per_result": 10.0 * row["cpu_percent"] * seconds / max(1, row["pictures"] - row["lost"])}
+            for name, row in services.items()}
+    return {"summary": rows, "lost": services[feed.last]["lost"],
             "pictures": pictures, "pictures_wanted": wanted,
             "source_fell_behind": pictures < LEAST_SHARE * wanted, "rate_hz": rate_hz,
             "seconds": seconds, "clip": feed.name}
 
 
 class _Chain:
-    """The four processes and what their status messages say."""
+    """The processes and what their messages say."""
 
     def __init__(self, where: layout.Layout, folder: Path, url: lcm_url.LcmUrl,
                  feed: Feed) -> None:
@@ -129,20 +171,25 @@ class _Chain:
         self._decode = ChannelDecoder(service_status_t, CHANNEL)
         self._bus = open_bus(url)
         self._bus.subscribe(CHANNEL, self._on_status)
+        self.arrivals = Arrivals()
+        if "pose_fitter" in feed.consumers:
+            self.arrivals.listen(self._bus)
         self._processes: dict[str, subprocess.Popen[bytes]] = {}
+        self._camera: subprocess.Popen[bytes] | None = None
         self._facts: dict[str, dict[str, Any]] = {}
 
     def start_consumers(self) -> None:
         """Returns when all of them have spoken."""
-        for service in CONSUMERS:
-            looks = service != "gesture_recogniser"
-            self._start(service, *([f"image_channel={self._feed.channel}"] if looks else []))
-        self._wait_for(CONSUMERS)
+        for service, settings in self._feed.consumers.items():
+            self._start(service, *settings)
+        self._wait_for(tuple(self._feed.consumers))
 
     def start_driver(self) -> None:
-        """Plays the pictures in a loop; returns when their driver has spoken."""
+        """Plays the pictures in a loop, or starts the camera; returns when their driver has spoken."""
         self._start(self._feed.driver, *self._feed.settings, "pace=by_time")
         self._wait_for((self._feed.driver,))
+        if self._feed.pairs:
+            self._camera = live_camera.start(self._where, self._feed.pairs, self._url, self._feed.rate_hz)
 
     def measure(self, seconds: float) -> dict[str, dict[str, Any]]:
         """The figures of each service over so many seconds; stops the camera.
@@ -155,9 +202,9 @@ class _Chain:
         elapsed = time.monotonic() - start
         load = {name: after - before[name] for name, after in self._cpu_seconds().items()}
         memory = {name: resident_bytes(p.pid) for name, p in self._processes.items()}
-        self._stop(self._feed.driver)
+        self._stop_source()
         self._listen(SETTLING_S)
-        self._require_all_alive(CONSUMERS)
+        self._require_all_alive(self._feed.consumers)
         pictures = _messages(self._facts[self._feed.driver], self._feed.channel, "out")
         return {name: _figures(self._facts[name], name, 100.0 * load[name] / elapsed, memory[name],
                                pictures)
@@ -165,8 +212,8 @@ class _Chain:
 
     def stop(self) -> None:
         """Ends all processes."""
-        for name in list(self._processes):
-            self._stop(name)
+        for process in (*self._processes.values(), *([self._camera] if self._camera else [])):
+            _end(process)
 
     def _cpu_seconds(self) -> dict[str, float]:
         """Of all processes, which are alive then."""
@@ -183,14 +230,9 @@ class _Chain:
             self._processes[service] = subprocess.Popen(
                 command, stderr=log, preexec_fn=end_with_parent(signal.SIGTERM))
 
-    def _stop(self, service: str) -> None:
-        process = self._processes[service]
-        process.terminate()
-        try:
-            process.wait(5.0)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
+    def _stop_source(self) -> None:
+        """What the pictures come from; then no more come."""
+        _end(self._camera or self._processes[self._feed.driver])
 
     def _wait_for(self, services: tuple[str, ...]) -> None:
         deadline = time.monotonic() + START_UP_LIMIT_S
@@ -218,6 +260,15 @@ class _Chain:
             self._facts[message.service] = as_facts(message)
 
 
+def _end(process: subprocess.Popen[bytes]) -> None:
+    process.terminate()
+    try:
+        process.wait(5.0)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+
+
 def _messages(facts: dict[str, Any], channel: str, direction: str) -> int:
     return sum(c["messages"] for c in facts["channels"]
                if c["name"] == channel and c["direction"] == direction)
@@ -227,7 +278,8 @@ def _figures(facts: dict[str, Any], service: str, cpu_percent: float, memory: in
              pictures: int) -> dict[str, Any]:
     """The keys of one service; `lost` counts pictures without a result of this service."""
     output = {"camera_driver": "CAMERA", "stereo_driver": "STEREO", "object_detector": "OBJECTS",
-              "hand_tracker": "HAND_TRACKS", "gesture_recogniser": "GESTURE_STATE"}[service]
+              "hand_tracker": "HAND_TRACKS", "gesture_recogniser": "GESTURE_STATE",
+              "pose_fitter": "BODY_POSES"}[service]
     return {
         "pictures": pictures,
         "lost": pictures - _messages(facts, output, "out"),
@@ -245,17 +297,20 @@ def _figures(facts: dict[str, Any], service: str, cpu_percent: float, memory: in
 
 def _print(result: dict[str, Any]) -> None:
     print(f"{result['clip']} at {result['rate_hz']:g} Hz for {result['seconds']:g} s:"
-          f" {result['pictures']} pictures, {result['lost']} without a gesture state")
+          f" {result['pictures']} pictures, {result['lost']} without a result; load of the machine"
+          f" {' to '.join(f'{load:.1f}' for load in result['load_average'])}")
     if result["source_fell_behind"]:
         print(f"{result['pictures']} of {result['pictures_wanted']} pictures: the machine is too slow"
               f" for {result['rate_hz']:g} Hz; ages grow with it")
     print(f"{'service':<20}{'lost':>6}{'skipped':>9}{'age p50':>9}{'p99 ms':>8}"
-          f"{'work p50':>10}{'p99 ms':>8}{'CPU %':>7}{'MB':>6}")
+          f"{'work p50':>10}{'p99 ms':>8}{'CPU %':>7}{'ms each':>9}{'MB':>6}")
     for name, row in result["summary"].items():
         print(f"{name:<20}{row['lost']:>6}{row['skipped']:>9}{_number(row['age_p50_ms']):>9}"
               f"{_number(row['age_p99_ms']):>8}{_number(row['processing_p50_ms']):>10}"
-              f"{_number(row['processing_p99_ms']):>8}{row['cpu_percent']:>7.1f}"
+              f"{_number(row['processing_p99_ms']):>8}{row['cpu_percent']:>7.1f}{row['cpu_ms_per_result']:>9.1f}"
               f"{_number(row['memory_mb']):>6}")
+    if result["bodies"]:
+        print_bodies(result["bodies"])
 
 
 def _number(value: float | None) -> str:

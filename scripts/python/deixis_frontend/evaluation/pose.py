@@ -15,13 +15,14 @@ from typing import Any
 
 import numpy as np
 
-from deixis_frontend import layout
+from deixis_frontend import layout, output_files
 from deixis_frontend.errors import UserError
 from deixis_frontend.evaluation import (
     pose_chain, pose_matching, pose_plots, pose_real, pose_report, pose_results, pose_scores, pose_truth,
     report_options)
 from deixis_frontend.evaluation.pose_chain import Chain
 from deixis_frontend.evaluation.pose_matching import JudgedScene
+from deixis_frontend.evaluation.pose_overlays import Overlay
 from deixis_frontend.evaluation.sequences import Sequence, Skipped, read_sequences
 from deixis_frontend.number_options import positive_count
 from deixis_frontend.progress_bar import ProgressBar
@@ -47,9 +48,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--only", metavar="GLOB", help="names of sequences to use")
     report_options.add_json(parser)
     report_options.add_plots(parser, "worst frames and of errors over time")
+    parser.add_argument("--overlays", type=Path, metavar="DIR",
+                        help="write films (MP4) and pictures (PNG) of the limbs fitted to stereo sequences")
     parser.add_argument("--columns", choices=(*COLUMNS, "both"), default="both",
                         help="what is told of the people (default: both, one after the other)")
-    parser.add_argument("--hands", action="store_true", help="let the fitter hear of hands and faces, too")
+    parser.add_argument("--hands", action=argparse.BooleanOptionalAction, default=True,
+                        help="let the fitter hear of hands and faces, as the group stereo does (default: yes)")
     parser.add_argument("--together", action="store_true",
                         help="run stereo driver and fitter in one process, so that the driver hears of the bodies")
     parser.add_argument("--depth-cache", type=Path, metavar="DIR",
@@ -65,6 +69,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """0; 1 when a sequence could not be run; raises UserError when there is nothing to measure."""
     report_options.check(arguments)
+    if arguments.overlays:
+        output_files.require_folder(arguments.overlays, "--overlays")
     where, chain = layout.find(), _chain(arguments)
     real = pose_real.find(arguments.data, arguments.only)
     sequences, skipped = read_sequences(arguments.data, arguments.only, pose_truth.NEEDED)
@@ -99,7 +105,7 @@ def _run_all(where: layout.Layout, chain: Chain, arguments: argparse.Namespace, 
     failed: list[Skipped] = []
     with ThreadPoolExecutor(arguments.jobs) as pool, ProgressBar(len(sequences)) as bar:
         jobs: dict[Future[list[Run]], Sequence] = {
-            pool.submit(_run_sequence, where, sequence, chain, columns, scratch, arguments.plots): sequence
+            pool.submit(_run_sequence, where, sequence, chain, columns, scratch, arguments): sequence
             for sequence in sequences}
         try:
             for done, job in enumerate(as_completed(jobs), 1):
@@ -115,7 +121,7 @@ def _run_all(where: layout.Layout, chain: Chain, arguments: argparse.Namespace, 
 
 
 def _run_sequence(where: layout.Layout, sequence: Sequence, chain: Chain, columns: tuple[str, ...],
-                  scratch: Path, plots: Path | None) -> list[Run]:
+                  scratch: Path, arguments: argparse.Namespace) -> list[Run]:
     scene = pose_truth.read_scene(sequence)
     log = pose_chain.stereo_log(where, sequence.folder, chain, scratch)
     runs = []
@@ -123,12 +129,13 @@ def _run_sequence(where: layout.Layout, sequence: Sequence, chain: Chain, column
         stature = pose_truth.stature_m(sequence) if column == "stature_given" else 0.0
         if stature is None:
             continue
-        fitted = pose_chain.fit(where, log, chain, (f"fitter.stature_m={stature:g}",), sequence.folder)
+        name = f"{sequence.name}_{column}"
+        overlay = Overlay(arguments.overlays, name, scene.fps) if arguments.overlays else None
+        fitted = pose_chain.fit(where, log, chain, (f"fitter.stature_m={stature:g}",), sequence.folder, overlay)
         judged = pose_matching.judge(scene, pose_results.read(fitted.messages))
         runs.append(Run(sequence, column, scene, judged, fitted.fit_ms))
-        if plots:  # At once: messages of all runs together are too much to keep.
-            pose_plots.write(f"{sequence.name}_{column}", judged.people[0], scene.segments, log, fitted.messages,
-                             plots)
+        if arguments.plots:  # At once: messages of all runs together are too much to keep.
+            pose_plots.write(name, judged.people[0], scene.segments, log, fitted.messages, arguments.plots)
     return runs
 
 

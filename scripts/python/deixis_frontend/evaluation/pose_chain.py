@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from deixis_frontend.evaluation.pose_overlays import Overlay
 from deixis_frontend.layout import Layout
 from deixis_frontend.programs import run_program
 
@@ -48,9 +49,10 @@ class Fitted:
 
 
 def fit(layout: Layout, log: Path, chain: Chain, settings: Iterable[str] = (),
-        recording: Path | None = None) -> Fitted:
+        recording: Path | None = None, overlay: Overlay | None = None) -> Fitted:
     """Runs the pose fitter over a log of STEREO; over its STEREO_PAIR where the chain matches with the fitter and
-    the log is of a stereo `recording`. `settings` go before the chain's own. UserError when a program fails."""
+    the log is of a stereo `recording`. `settings` go before the chain's own. What was fitted is drawn where `overlay` says.
+    UserError when a program fails."""
     layout.use_types()
     from deixis_lcm import logs
 
@@ -62,9 +64,12 @@ def fit(layout: Layout, log: Path, chain: Chain, settings: Iterable[str] = (),
         said += [f"{_DRIVER}.{setting}" for setting in (*_calibration(matched), *chain.stereo_settings)]
     with tempfile.TemporaryDirectory() as folder:
         results, times = Path(folder) / "results.lcmlog", Path(folder) / "times.csv"
-        run_program(layout, "deixis-offline", str(log), str(results), "--results-only",
+        results_only = [] if overlay else ["--results-only"]
+        run_program(layout, "deixis-offline", str(log), str(results), *results_only,
                     "--services", ",".join(services), "--times", str(times),
                     *(word for setting in said for word in ("--set", setting)))
+        if overlay:
+            overlay.draw(layout, results)
         messages = [(channel, message) for _, channel, message in logs.read(results, _RESULTS)]
         return Fitted(messages, _fit_ms(times))
 

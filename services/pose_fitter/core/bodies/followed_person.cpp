@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/config/config.h"
+#include "services/pose_fitter/core/cues/cue_owner.h"
 
 namespace deixis::pose_fitter {
 namespace {
@@ -11,12 +12,21 @@ namespace {
 using body_model::BodyPose;
 using body_model::LimbState;
 
-constexpr int kLessons = 4;         // The last lesson has so many times the first one's images.
-constexpr int kMeasuredPoints = 8;  // A limb with as many rests on its own data.
+constexpr int kLessons = 4;           // The last lesson has so many times the first one's images.
+constexpr double kLimbsOwn_m = 0.05;  // What is so near to a limb is its own.
+// A limb rests on its own data that has so many points, so near on average, and of whose surface
+// that faces the camera so much is seen.
+constexpr int kMeasuredPoints = 8;
+constexpr double kMeasuredWithin_m = 0.035;
+constexpr double kMeasuredShare = 0.35;
+constexpr double kDoubted = 0.6;  // Share of a limb that counts as unseen when it is not measured.
 
 LimbState StateOf(const LimbEvidence& evidence) {
-  if (evidence.inlier_count >= kMeasuredPoints) return LimbState::kMeasured;
   const LimbView& view = evidence.view;
+  if (evidence.inlier_count >= kMeasuredPoints && evidence.residual_m < kMeasuredWithin_m &&
+      view.seen >= kMeasuredShare * view.samples) {
+    return LimbState::kMeasured;
+  }
   if (2 * (view.hidden + view.outside) > view.samples) return LimbState::kHidden;
   return 2 * view.free > view.samples ? LimbState::kLost : LimbState::kInferred;
 }
@@ -31,13 +41,13 @@ void FollowConfig::Validate() const {
   faults.Require(proven_score > 0.0, "proven_score", "must be positive");
   faults.Require(lost_score > 0.0, "lost_score", "must be positive");
   faults.Require(turned_about >= 0.0, "turned_about", "must not be negative");
-  faults.Require(arms_s >= 0.0, "arms_s", "must not be negative");
-  faults.Require(arms_better >= 0.0, "arms_better", "must not be negative");
   faults.Require(least_points >= 10, "least_points", "must be at least 10");
   faults.Require(position_sigma_m >= 0.0, "position_sigma_m", "must not be negative");
+  faults.Require(unseen_rad >= 0.0, "unseen_rad", "must not be negative");
   faults.Require(covariance_factor > 0.0, "covariance_factor", "must be positive");
   faults.Require(shape_frames >= 0 && shape_frames <= 1000, "shape_frames", "must be 0..1000");
   faults.Require(shape_period_s >= 0.0, "shape_period_s", "must not be negative");
+  faults.Require(shape_work >= 1, "shape_work", "must be at least 1");
   faults.Require(shape_points >= 10, "shape_points", "must be at least 10");
   faults.ThrowIfAny();
 }
@@ -55,6 +65,12 @@ FollowedPerson::FollowedPerson(const FollowSettings& settings, const PersonBody&
       hypotheses_(std::move(starts)),
       next_lesson_(settings.follow.shape_frames) {
   Choose();
+  MakeLimbSearch();
+}
+
+void FollowedPerson::MakeLimbSearch() {
+  search_ = std::make_unique<LimbSearch>(settings_.limbs, settings_.evidence,
+                                         settings_.fit.articulated, *model_);
 }
 
 void FollowedPerson::Look(const DepthView& view, const std::optional<body_model::Floor>& floor) {
@@ -63,15 +79,24 @@ void FollowedPerson::Look(const DepthView& view, const std::optional<body_model:
   evidence_.Gather(view, *kinematics_, poses, floor, {}, settings_.evidence.gate_m);
 }
 
+void FollowedPerson::MarkLimbs(std::vector<std::uint8_t>& pixels) const {
+  evidence_.MarkNear(*kinematics_, kLimbsOwn_m, pixels);
+}
+
+double FollowedPerson::Reaches(const PartCue& cue) {
+  kinematics_->Update(best().pose);
+  return pose_fitter::Reaches(cue, *kinematics_);
+}
+
 void FollowedPerson::Follow(const DepthView& view, const std::optional<body_model::Floor>& floor,
-                            const std::vector<std::uint8_t>& taken, double seconds) {
+                            const ImageContext& context, double seconds) {
   std::vector<BodyPose> predicted;
   for (const Hypothesis& hypothesis : hypotheses_) {
     predicted.push_back(Predict(hypothesis, seconds, settings_.follow.velocity_share));
   }
   std::vector<const BodyPose*> poses;
   for (const BodyPose& pose : predicted) poses.push_back(&pose);
-  evidence_.Gather(view, *kinematics_, poses, floor, {&taken}, settings_.evidence.gate_m);
+  evidence_.Gather(view, *kinematics_, poses, floor, context, settings_.evidence.gate_m);
   if (evidence_.points().count() < settings_.follow.least_points) {
     unseen_s_ += seconds;
     return;
@@ -81,8 +106,11 @@ void FollowedPerson::Follow(const DepthView& view, const std::optional<body_mode
     Fit(floor, predicted[i], seconds, hypotheses_[i]);
   }
   Remember(seconds);
+  LearnShape();
   Choose();
-  TryArms(view, floor, taken, seconds);
+  if (settings_.fit.method != FitMethod::kArticulated) return;
+  auto better = search_->Find(evidence_, floor, context, seconds, best());
+  if (better) hypotheses_.front() = std::move(*better);
 }
 
 void FollowedPerson::Fit(const std::optional<body_model::Floor>& floor, const BodyPose& predicted,
@@ -91,56 +119,10 @@ void FollowedPerson::Fit(const std::optional<body_model::Floor>& floor, const Bo
   hypothesis.result = fitter_->Fit(evidence_, floor, predicted, seconds, pose);
   hypothesis.information = fitter_->information();
   Move(pose, seconds, hypothesis);
-  const double score =
-      hypothesis.result.score + FacingPenalty(settings_.start, pose) + hypothesis.handicap;
+  const double score = hypothesis.result.score + FacingPenalty(settings_.start, pose) +
+                       settings_.limbs.cue_share * hypothesis.result.cue_cost + hypothesis.handicap;
   const double share = std::min(1.0, seconds / (0.5 * settings_.follow.settle_s));
   hypothesis.mean_score += share * (score - hypothesis.mean_score);
-}
-
-// An arm that is not where it is seen, or is seen through.
-bool FollowedPerson::IsArmDoubtful(ArmSide side) const {
-  const std::string name = side == ArmSide::kRight ? "right_" : "left_";
-  for (const char* part : {"lower_arm", "hand"}) {
-    const auto limb = model_->Find(name + part);
-    if (!limb) continue;
-    const LimbEvidence& evidence = best().result.limbs[static_cast<std::size_t>(*limb)];
-    const LimbView& view = evidence.view;
-    if (evidence.inlier_count < kMeasuredPoints || 4 * view.free > view.samples) return true;
-  }
-  return false;
-}
-
-// All places are judged by the same pixels: those around any of them.
-void FollowedPerson::TryArms(const DepthView& view, const std::optional<body_model::Floor>& floor,
-                             const std::vector<std::uint8_t>& taken, double seconds) {
-  since_arms_s_ += seconds;
-  if (since_arms_s_ < settings_.follow.arms_s || hypotheses_.size() > 1) return;
-  const ArmSide side = next_arm_;
-  next_arm_ = side == ArmSide::kRight ? ArmSide::kLeft : ArmSide::kRight;
-  if (!IsArmDoubtful(side)) return;
-  since_arms_s_ = 0.0;
-  std::vector<BodyPose> places = ArmPoses(*model_, best().pose, side);
-  places.push_back(best().pose);
-  std::vector<const BodyPose*> poses;
-  for (const BodyPose& place : places) poses.push_back(&place);
-  BodyEvidence around(settings_.evidence);
-  around.Gather(view, *kinematics_, poses, floor, {&taken}, settings_.evidence.gate_m);
-  std::optional<Hypothesis> found;
-  double score_now = 0.0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    Hypothesis other = best();
-    other.pose = places[i];
-    other.result = fitter_->Fit(around, floor, places[i], std::nullopt, other.pose);
-    other.information = fitter_->information();
-    if (i + 1 == places.size()) {
-      score_now = other.result.score;
-    } else if (!found || other.result.score < found->result.score) {
-      found = std::move(other);
-    }
-  }
-  if (!found || found->result.score > score_now - settings_.follow.arms_better) return;
-  found->rates_rad_per_s.setZero();
-  hypotheses_.front() = std::move(*found);
 }
 
 // With time, all but the best go.
@@ -185,7 +167,9 @@ std::optional<Eigen::Vector3d> FollowedPerson::HeadMiddle_m() {
 // Images for the person's shape: such without doubt, apart from each other.
 void FollowedPerson::Remember(double seconds) {
   since_frame_s_ += seconds;
-  if (next_lesson_ == 0 || hypotheses_.size() > 1 || best().age_s < settings_.follow.settle_s ||
+  const int most = lesson_ ? 2 * next_lesson_ : next_lesson_;
+  if (static_cast<int>(frames_.size()) >= most || hypotheses_.size() > 1 ||
+      best().age_s < settings_.follow.settle_s ||
       best().result.score > settings_.follow.shape_score ||
       since_frame_s_ < settings_.follow.shape_period_s) {
     return;
@@ -202,13 +186,19 @@ void FollowedPerson::Remember(double seconds) {
         {Eigen::Vector3f(points.x_m[k], points.y_m[k], points.z_m[k]).cast<double>(),
          static_cast<double>(points.sigma_z_m[k]), fitter_->winners()[k]});
   }
-  if (static_cast<int>(frames_.size()) >= next_lesson_) LearnShape();
 }
 
+// A little in each image.
 void FollowedPerson::LearnShape() {
-  const ShapeParameters parameters(*first_model_, *plan_, estimate_);
-  const ShapeResult learned = CalibrateShape(parameters, frames_, settings_.shape);
-  if (learned.shape) Wear(*learned.shape);
+  if (!lesson_ && next_lesson_ > 0 && static_cast<int>(frames_.size()) >= next_lesson_) {
+    lesson_ = std::make_unique<ShapeCalibration>(ShapeParameters(*first_model_, *plan_, estimate_),
+                                                 frames_, settings_.shape);
+  }
+  if (!lesson_) return;
+  lesson_->Advance(settings_.follow.shape_work);
+  if (!lesson_->IsOver()) return;
+  if (lesson_->result().shape) Wear(*lesson_->result().shape);
+  lesson_.reset();
   next_lesson_ *= 2;
   if (next_lesson_ > kLessons * settings_.follow.shape_frames) {
     next_lesson_ = 0;
@@ -216,12 +206,27 @@ void FollowedPerson::LearnShape() {
   }
 }
 
-// Angles mean the same in the new body; its next fit starts from the pose that was learned with it.
+// Angles mean the same in the new body.
 void FollowedPerson::Wear(const CalibratedShape& shape) {
   model_ = std::make_unique<body_model::BodyModel>(shape.model);
   kinematics_ = std::make_unique<body_model::Kinematics>(*model_);
   fitter_ = MakePoseMethod(settings_.fit, *model_);
-  hypotheses_.front().pose = shape.poses.back();
+  MakeLimbSearch();
+}
+
+// A fit believes in the few points of a limb that is mostly out of sight, which may be another's.
+void FollowedPerson::AddUnseen(Eigen::MatrixXd& covariance) const {
+  for (int limb = 1; limb < model_->limb_count(); ++limb) {
+    const LimbEvidence& evidence = best().result.limbs[static_cast<std::size_t>(limb)];
+    const LimbView& view = evidence.view;
+    double unseen = view.samples > 0 ? 1.0 - static_cast<double>(view.seen) / view.samples : 1.0;
+    if (StateOf(evidence) != LimbState::kMeasured) unseen = std::max(unseen, kDoubted);
+    const double sigma_rad = settings_.follow.unseen_rad * unseen;
+    const auto count =
+        static_cast<Eigen::Index>(model_->limbs()[static_cast<std::size_t>(limb)].dofs.size());
+    covariance.diagonal().segment(6 + model_->first_angle(limb), count).array() +=
+        sigma_rad * sigma_rad;
+  }
 }
 
 Eigen::MatrixXd FollowedPerson::CovarianceOf(const Eigen::MatrixXd& information) const {
@@ -229,6 +234,7 @@ Eigen::MatrixXd FollowedPerson::CovarianceOf(const Eigen::MatrixXd& information)
   const auto size = information.rows();
   Eigen::MatrixXd covariance = settings_.follow.covariance_factor *
                                information.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+  AddUnseen(covariance);
   const double variance_m2 = settings_.follow.position_sigma_m * settings_.follow.position_sigma_m;
   covariance.diagonal().head<3>().array() += variance_m2;
   return covariance;

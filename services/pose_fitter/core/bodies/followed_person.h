@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/body_model/tracked_body.h"
-#include "services/pose_fitter/core/bodies/arm_poses.h"
 #include "services/pose_fitter/core/bodies/hypothesis.h"
+#include "services/pose_fitter/core/bodies/limb_search.h"
 #include "services/pose_fitter/core/bodies/person_body.h"
 #include "services/pose_fitter/core/fitting/body_evidence.h"
 #include "services/pose_fitter/core/fitting/method_choice.h"
@@ -20,17 +20,17 @@ struct FollowConfig {
   double doubtful_score = 0.4;      ///< From here on other poses of the person are tried.
   double proven_score = 0.35;       ///< Who was once explained so well is somebody,
   double turned_about = 0.3;        ///< Added to the score of rivals that look the other way.
-  double arms_s = 0.2;              ///< Between two tries of other places of the arms.
-  double arms_better = 0.03;        ///< By which another place must be better.
   double lost_score = 0.8;          ///< and only gone from here on; others by `worst_score`.
   int least_points = 50;            ///< With fewer a person is not seen.
   double position_sigma_m = 0.012;  ///< Spread of joint places that a fit does not know of.
+  double unseen_rad = 0.35;         ///< Spread of the angles of a limb that is not seen at all.
   double covariance_factor = 1.0;   ///< Times the covariance that a fit believes in.
   int shape_frames = 20;            ///< Well seen images that a person's shape is learned from;
                                     ///< again from twice and from four times as many; 0 = never.
   double shape_period_s = 0.15;     ///< Between two of them.
   double shape_score = 0.4;         ///< Images with a worse one are not taken.
   int shape_points = 400;           ///< Taken from each.
+  int shape_work = 4;               ///< Of them so many are looked at again in each image.
 
   template <typename Visitor>
   void Visit(Visitor& v) {
@@ -39,16 +39,16 @@ struct FollowConfig {
     v("doubtful_score", doubtful_score);
     v("proven_score", proven_score);
     v("turned_about", turned_about);
-    v("arms_s", arms_s);
-    v("arms_better", arms_better);
     v("lost_score", lost_score);
     v("least_points", least_points);
     v("position_sigma_m", position_sigma_m);
+    v("unseen_rad", unseen_rad);
     v("covariance_factor", covariance_factor);
     v("shape_frames", shape_frames);
     v("shape_period_s", shape_period_s);
     v("shape_score", shape_score);
     v("shape_points", shape_points);
+    v("shape_work", shape_work);
   }
   void Validate() const;  ///< Throws FaultsFound.
 };
@@ -57,6 +57,7 @@ struct FollowConfig {
 struct FollowSettings {
   FollowConfig follow;
   StarterConfig start;
+  LimbSearchConfig limbs;
   BodyEvidenceConfig evidence;
   FitSettings fit;
   ShapeConfig shape;
@@ -72,11 +73,17 @@ class FollowedPerson {
 
   /// Gathers what the image says around the poses, and their pixels, without moving them.
   void Look(const DepthView& view, const std::optional<body_model::Floor>& floor);
-  /// Moves on to the next image, `seconds` later. Pixels of `taken` are somebody else's.
+  /// Moves on to the next image, `seconds` later.
   void Follow(const DepthView& view, const std::optional<body_model::Floor>& floor,
-              const std::vector<std::uint8_t>& taken, double seconds);
+              const ImageContext& context, double seconds);
   /// Other poses that it may have.
   void AddRivals(std::vector<Hypothesis> rivals);
+
+  /// As pose_fitter::Reaches, of its last pose.
+  double Reaches(const PartCue& cue);
+
+  /// Sets the pixels whose points its limbs explain, or that are next to such.
+  void MarkLimbs(std::vector<std::uint8_t>& pixels) const;
 
   int id = -1;  ///< Track; -1 = none yet.
   const Hypothesis& best() const { return hypotheses_.front(); }
@@ -96,13 +103,12 @@ class FollowedPerson {
  private:
   void Fit(const std::optional<body_model::Floor>& floor, const body_model::BodyPose& predicted,
            double seconds, Hypothesis& hypothesis);
-  void TryArms(const DepthView& view, const std::optional<body_model::Floor>& floor,
-               const std::vector<std::uint8_t>& taken, double seconds);
-  bool IsArmDoubtful(ArmSide side) const;
+  void MakeLimbSearch();
   void Choose();
   void Remember(double seconds);
   void LearnShape();
   void Wear(const CalibratedShape& shape);
+  void AddUnseen(Eigen::MatrixXd& covariance) const;
   /// 0 x 0 = not known.
   Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& information) const;
 
@@ -115,13 +121,13 @@ class FollowedPerson {
   std::unique_ptr<PoseMethod> fitter_;
   BodyEvidence evidence_;
   std::vector<Hypothesis> hypotheses_;  ///< The best one first.
-  double since_arms_s_ = 0.0;
-  ArmSide next_arm_ = ArmSide::kRight;
+  std::unique_ptr<LimbSearch> search_;
   bool is_proven_ = false;
   bool has_head_ = false;
   double unseen_s_ = 0.0;
   std::vector<ShapeFrame> frames_;
   double since_frame_s_ = 0.0;
+  std::unique_ptr<ShapeCalibration> lesson_;  ///< What is being learned.
   int next_lesson_ = 0;  ///< Number of frames that the shape is learned from next; 0 = no more.
 };
 

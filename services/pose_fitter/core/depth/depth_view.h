@@ -49,6 +49,7 @@ class DepthView {
     return z_m_[static_cast<std::size_t>(v_px) * static_cast<std::size_t>(camera_.width_px) +
                 static_cast<std::size_t>(u_px)];
   }
+  const float* row_m(int v_px) const { return &z_m_[static_cast<std::size_t>(v_px * width_px())]; }
   Eigen::Vector3d Point(int u_px, int v_px) const;  ///< In the camera's optical frame.
 
  private:

@@ -117,6 +117,7 @@ BodyFitter::BodyFitter(const BodyFitterConfig& config, const body_model::BodyMod
       freedoms_(FreedomsOf(config, model)),
       trunk_(TrunkOf(model)),
       outline_(config.outline, model),
+      cues_(config.cues, model),
       limb_equations_(model.limb_count()) {
   const auto count = static_cast<std::size_t>(model.limb_count());
   surfaces_.resize(count);
@@ -145,12 +146,15 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
     kinematics_.Update(pose);
     equations_.SetZero(6 + model_->angle_count());
     limb_equations_.SetZero(kinematics_.proximal_m(0));
-    Assign(points, reach_m);
-    AddPoints(points, scale_m);
+    PlaceLimbs();
+    // Points rarely change their limbs: where each belongs is asked in every other round.
+    if (round % 2 == 0) Assign(points, reach_m);
+    AddPoints(scale_m);
     for (int limb = 0; limb < model_->limb_count(); ++limb) {
       limb_equations_.Add(limb, sums_[static_cast<std::size_t>(limb)], weight);
     }
     outline_.AddTo(evidence, kinematics_, config_.point_weight, limb_equations_);
+    cues_.AddTo(evidence.cues(), kinematics_, 1.0, limb_equations_);
     AddFloor(floor);
     limb_equations_.AddTo(kinematics_, equations_);
     AddPriors(pose, predicted, seconds);
@@ -165,19 +169,30 @@ const FitResult& BodyFitter::Fit(const BodyEvidence& evidence,
   return result_;
 }
 
-void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
-  const auto count = static_cast<std::size_t>(points.count());
+const FitResult& BodyFitter::Judge(const BodyEvidence& evidence, const body_model::BodyPose& pose) {
+  kinematics_.Update(pose);
+  limb_equations_.SetZero(kinematics_.proximal_m(0));
+  Judge(evidence);
+  return result_;
+}
+
+void BodyFitter::PlaceLimbs() {
   for (int limb = 0; limb < model_->limb_count(); ++limb) {
     const auto k = static_cast<std::size_t>(limb);
     const auto& shape = model_->limbs()[k].shape;
     surfaces_[k] = SurfaceOf(kinematics_.limb(limb), shape);
     capsules_[k] = CapsuleOf(kinematics_.limb(limb), shape);
   }
+}
+
+void BodyFitter::Assign(const BodyPoints& points, double reach_m) {
+  const auto count = static_cast<std::size_t>(points.count());
   const auto across = static_cast<float>(config_.across_m);
   const auto reach = static_cast<float>(reach_m);
-  scores_.assign(count, reach / across);
+  scores2_.assign(count, reach / across * (reach / across));
   winners_.assign(count, -1);
   for (const PointBlock& block : points.blocks) AssignBlock(points, block, reach);
+  SortByLimb(points);
 }
 
 // From the nearest limb on: those come no further that are too far to explain any point better.
@@ -190,17 +205,17 @@ void BodyFitter::AssignBlock(const BodyPoints& points, const PointBlock& block, 
   std::sort(near_.begin(), near_.end());
   const auto across = static_cast<float>(config_.across_m);
   const Eigen::Map<const Eigen::ArrayXf> sigmas(points.sigma_z_m.data() + block.first, block.count);
-  const Eigen::Map<const Eigen::ArrayXf> scores(scores_.data() + block.first, block.count);
+  const Eigen::Map<const Eigen::ArrayXf> scores2(scores2_.data() + block.first, block.count);
   const float unit_m = std::max(across, sigmas.maxCoeff());
   for (const auto& [gap_m, limb] : near_) {
-    if (gap_m > scores.maxCoeff() * unit_m) break;
+    if (gap_m > 0.0F && gap_m * gap_m > scores2.maxCoeff() * unit_m * unit_m) break;
     ScoreLimb(surfaces_[static_cast<std::size_t>(limb)], limb, across,
               Slice(points, block.first, block.count),
-              {scores_.data() + block.first, winners_.data() + block.first});
+              {scores2_.data() + block.first, winners_.data() + block.first});
   }
 }
 
-void BodyFitter::AddPoints(const BodyPoints& points, double scale_m) {
+void BodyFitter::SortByLimb(const BodyPoints& points) {
   const auto limbs = static_cast<std::size_t>(model_->limb_count());
   std::fill(first_of_limb_.begin(), first_of_limb_.end(), 0);
   for (const int winner : winners_) {
@@ -221,11 +236,14 @@ void BodyFitter::AddPoints(const BodyPoints& points, double scale_m) {
     sorted_.z_m[at] = points.z_m[i];
     sorted_.sigma_z_m[at] = points.sigma_z_m[i];
   }
+}
+
+void BodyFitter::AddPoints(double scale_m) {
   const Eigen::Vector3f root_m = limb_equations_.root_m().cast<float>();
   const SumSettings settings{{root_m.x(), root_m.y(), root_m.z()},
                              static_cast<float>(scale_m),
                              static_cast<float>(config_.across_m)};
-  for (std::size_t k = 0; k < limbs; ++k) {
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
     sums_[k] = {};
     const int count = first_of_limb_[k + 1] - first_of_limb_[k];
     if (count > 0)
@@ -330,8 +348,9 @@ void BodyFitter::Step(body_model::BodyPose& pose) {
 
 void BodyFitter::Judge(const BodyEvidence& evidence) {
   const BodyPoints& points = evidence.points();
+  PlaceLimbs();
   Assign(points, config_.last_reach_m);
-  AddPoints(points, config_.judged_scale_m);
+  AddPoints(config_.judged_scale_m);
   int explained = 0;
   double cost = 0.0;
   for (int limb = 0; limb < model_->limb_count(); ++limb) {
@@ -347,6 +366,8 @@ void BodyFitter::Judge(const BodyEvidence& evidence) {
     cost += static_cast<double>(sums_[k].values[27]);
   }
   Score(trunk_, points.count(), explained, cost, result_);
+  result_.cue_cost = cues_.Cost(evidence.cues(), kinematics_);
+  result_.cue_of_hand = cues_.cue_of_hand();
 }
 
 }  // namespace deixis::pose_fitter

@@ -9,6 +9,7 @@
 #include "common/body_model/body_model.h"
 #include "common/body_model/kinematics.h"
 #include "services/pose_fitter/core/fitting/body_evidence.h"
+#include "services/pose_fitter/core/fitting/cue_term.h"
 #include "services/pose_fitter/core/fitting/limb_equations.h"
 #include "services/pose_fitter/core/fitting/outline_term.h"
 #include "services/pose_fitter/core/fitting/pose_method.h"
@@ -47,6 +48,7 @@ struct BodyFitterConfig {
   double upright_rad = 10.0;      ///< Spread of the base limb about the vertical; 10 = none.
   double limit_rad = 0.03;        ///< Spread of angles beyond their limits.
   OutlineConfig outline;
+  CueConfig cues;
   std::vector<JointFreedom> joints{
       {"abdomen", 0.06, 0.20},  {"chest", 0.06, 0.20},    {"neck", 0.10, 0.25},
       {"head", 0.12, 0.40},     {"clavicle", 0.08, 0.15}, {"upper_arm", 0.22, 2.0},
@@ -71,6 +73,7 @@ struct BodyFitterConfig {
     v("upright_rad", upright_rad);
     v("limit_rad", limit_rad);
     v("outline", outline);
+    v("cues", cues);
     v("joints", joints);
   }
   void Validate() const;  ///< Throws FaultsFound.
@@ -97,14 +100,19 @@ class BodyFitter final : public PoseMethod {
                        const body_model::BodyPose& predicted, std::optional<double> seconds,
                        body_model::BodyPose& pose) override;
 
+  /// How well a pose explains the evidence as it is. Holds until the next fit.
+  const FitResult& Judge(const BodyEvidence& evidence, const body_model::BodyPose& pose);
+
   body_model::Kinematics& kinematics() { return kinematics_; }
   const Eigen::MatrixXd& information() const override { return equations_.information; }
   const std::vector<int>& winners() const override { return winners_; }
 
  private:
+  void PlaceLimbs();
   void Assign(const BodyPoints& points, double reach_m);
   void AssignBlock(const BodyPoints& points, const PointBlock& block, float reach_m);
-  void AddPoints(const BodyPoints& points, double scale_m);
+  void SortByLimb(const BodyPoints& points);
+  void AddPoints(double scale_m);
   void AddPriors(const body_model::BodyPose& pose, const body_model::BodyPose& predicted,
                  std::optional<double> seconds);
   void AddLimits(const body_model::BodyPose& pose);
@@ -120,6 +128,7 @@ class BodyFitter final : public PoseMethod {
   std::vector<JointFreedom> freedoms_;  ///< Of each limb.
   std::vector<int> trunk_;
   OutlineTerm outline_;
+  CueTerm cues_;
   LimbEquations limb_equations_;
   BodyEquations equations_;
   Eigen::LDLT<Eigen::MatrixXd> factors_;
@@ -127,7 +136,7 @@ class BodyFitter final : public PoseMethod {
   std::vector<LimbSurface> surfaces_;
   std::vector<LimbCapsule> capsules_;        ///< Around each limb.
   std::vector<std::pair<float, int>> near_;  ///< Limbs near a block: how far, which.
-  std::vector<float> scores_;
+  std::vector<float> scores2_;               ///< Of each point, squared.
   std::vector<int> winners_;
   BodyPoints sorted_;
   std::vector<int> first_of_limb_;  ///< Among sorted_.

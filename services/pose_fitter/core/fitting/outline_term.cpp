@@ -30,12 +30,14 @@ struct Pixel {
 
 Pixel PixelOf(const DepthCamera& camera, const Vector3d& point_m) {
   if (point_m.z() < kNearest_m) return {};
-  const Eigen::Vector2d at = camera.Project(point_m);
-  if (!(at.x() > 2.0 && at.y() > 2.0 && at.x() < camera.width_px - 3.0 &&
-        at.y() < camera.height_px - 3.0)) {
+  const double inverse_z = 1.0 / point_m.z();
+  const double u_px = camera.focal_px.x() * point_m.x() * inverse_z + camera.centre_px.x();
+  const double v_px = camera.focal_px.y() * point_m.y() * inverse_z + camera.centre_px.y();
+  if (!(u_px > 2.0 && v_px > 2.0 && u_px < camera.width_px - 3.0 &&
+        v_px < camera.height_px - 3.0)) {
     return {};
   }
-  return {static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())), true};
+  return {static_cast<int>(u_px + 0.5), static_cast<int>(v_px + 0.5), true};
 }
 
 }  // namespace
@@ -135,7 +137,8 @@ LimbView OutlineTerm::Look(const BodyEvidence& evidence, const body_model::Kinem
     } else if (z_m > point_m.z() + near_m) {
       ++view.free;
     } else {
-      ++view.seen;
+      // What lies just behind a piece of the room is hidden by it.
+      ++(evidence.IsRoom(at.u, at.v) ? view.hidden : view.seen);
     }
   }
   return view;

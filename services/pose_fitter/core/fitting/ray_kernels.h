@@ -22,8 +22,8 @@ struct RayPoints {
 
 /// How well a limb explains points, per point: the smallest is the limb's it belongs to.
 struct RayScores {
-  float* score;  ///< Smallest so far; replaced where this limb's is smaller.
-  int* limb;     ///< Whose it is.
+  float* score2;  ///< Square of the smallest so far; replaced where this limb's is smaller.
+  int* limb;      ///< Whose it is.
 };
 
 /// What the sums of one limb are made with.

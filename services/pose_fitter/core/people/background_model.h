@@ -9,7 +9,7 @@
 namespace deixis::pose_fitter {
 
 struct BackgroundModelConfig {
-  bool is_used = false;         ///< Only for a camera that stands still.
+  bool is_used = true;          ///< A camera that moves is noticed: everything is forgotten.
   double still_time_s = 3.0;    ///< What is seen for so long is background,
   double nearer_time_s = 60.0;  ///< and what comes before it, for so long.
   double same_fixed_m = 0.02;   ///< The same surface may be off by this

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "common/config/config.h"
 #include "services/pose_fitter/core/shape/shape_problem.h"
@@ -36,33 +38,6 @@ std::size_t PointCount(const std::vector<ShapeFrame>& frames) {
   std::size_t count = 0;
   for (const ShapeFrame& frame : frames) count += frame.points.size();
   return count;
-}
-
-/// The next better state, if there is one; `damping` follows Levenberg and Marquardt.
-std::optional<ShapeState> Better(const ShapeProblem& problem, const ShapeState& state, double cost,
-                                 double& damping) {
-  const auto equations = problem.Equations(state);
-  for (; damping < kMostDamping; damping *= 10.0) {
-    ShapeState next = problem.Stepped(state, equations, damping);
-    if (problem.Cost(next) >= cost) continue;
-    damping = std::max(0.1 * damping, kLeastDamping);
-    return next;
-  }
-  return std::nullopt;
-}
-
-ShapeState Minimise(const ShapeProblem& problem, int max_iterations) {
-  ShapeState state = problem.Start();
-  double cost = problem.Cost(state), damping = kFirstDamping;
-  for (int i = 0; i < max_iterations; ++i) {
-    auto next = Better(problem, state, cost, damping);
-    if (!next) break;
-    state = std::move(*next);
-    const double gain = cost - problem.Cost(state);
-    cost -= gain;
-    if (gain < kConverged * cost) break;
-  }
-  return state;
 }
 
 /// Lengths of limbs, of pairs the right one.
@@ -117,29 +92,141 @@ void ShapeConfig::Validate() const {
   faults.ThrowIfAny();
 }
 
+struct ShapeCalibration::State {
+  VectorXd values;
+  std::vector<body_model::BodyPose> poses;
+  std::unique_ptr<BodyModel> model;  ///< Of these values.
+  std::unique_ptr<body_model::Kinematics> kinematics;
+
+  State(const ShapeParameters& parameters, VectorXd of, std::vector<body_model::BodyPose> in)
+      : values(std::move(of)),
+        poses(std::move(in)),
+        model(std::make_unique<BodyModel>(parameters.Apply(values))),
+        kinematics(std::make_unique<body_model::Kinematics>(*model)) {}
+};
+
+ShapeCalibration::ShapeCalibration(ShapeParameters parameters, std::vector<ShapeFrame> frames,
+                                   const ShapeConfig& config)
+    : parameters_(std::move(parameters)), frames_(std::move(frames)), config_(config) {
+  config_.Validate();
+  Require(parameters_, frames_);
+  if (frames_.size() < static_cast<std::size_t>(config_.min_frames)) {
+    result_ = {std::nullopt, ShapeRefusal::kTooFewFrames};
+  } else if (PointCount(frames_) < static_cast<std::size_t>(config_.min_points)) {
+    result_ = {std::nullopt, ShapeRefusal::kTooFewPoints};
+  }
+  if (result_) return;
+  problem_ = std::make_unique<ShapeProblem>(parameters_, frames_, config_);
+  std::vector<body_model::BodyPose> poses;
+  for (const ShapeFrame& frame : frames_) poses.push_back(frame.pose);
+  state_ = std::make_unique<State>(parameters_, VectorXd::Zero(parameters_.count()), poses);
+  damping_ = kFirstDamping;
+  cost_ = problem_->Cost(state_->values);
+}
+
+ShapeCalibration::~ShapeCalibration() = default;
+
+void ShapeCalibration::Advance(int frames) {
+  for (; frames > 0 && !IsOver(); --frames) {
+    DoFrame();
+    if (++frame_ == frames_.size()) EndPart();
+  }
+}
+
+void ShapeCalibration::DoFrame() {
+  switch (part_) {
+    case Part::kFirstCost:
+      cost_ += problem_->Cost(frame_, state_->poses[frame_], *state_->kinematics);
+      break;
+    case Part::kEquations:
+      equations_.push_back(problem_->Equations(frame_, state_->poses[frame_], *bodies_));
+      break;
+    case Part::kReduction:
+      ShapeProblem::AddReduced(equations_[frame_], damping_, matrix_, vector_);
+      break;
+    case Part::kStep:
+      next_->poses[frame_] =
+          ShapeProblem::Stepped(state_->poses[frame_], equations_[frame_], shape_step_, damping_);
+      next_cost_ += problem_->Cost(frame_, next_->poses[frame_], *next_->kinematics);
+      break;
+  }
+}
+
+void ShapeCalibration::BeginPart(Part part) {
+  part_ = part;
+  frame_ = 0;
+  if (part == Part::kEquations) {
+    equations_.clear();
+    bodies_ = std::make_unique<ShapeBodies>(parameters_, state_->values);
+  } else if (part == Part::kReduction) {
+    std::tie(matrix_, vector_) = problem_->Prior(state_->values);
+  } else if (part == Part::kStep) {
+    matrix_.diagonal() *= 1.0 + damping_;
+    shape_step_ = matrix_.ldlt().solve(vector_);
+    next_ = std::make_unique<State>(parameters_, state_->values + shape_step_, state_->poses);
+    next_cost_ = problem_->Cost(next_->values);
+  }
+}
+
+void ShapeCalibration::EndPart() {
+  switch (part_) {
+    case Part::kFirstCost:
+      return BeginPart(Part::kEquations);
+    case Part::kEquations:
+      if (is_last_) damping_ = 0.0;
+      return BeginPart(Part::kReduction);
+    case Part::kReduction:
+      return is_last_ ? Conclude() : BeginPart(Part::kStep);
+    case Part::kStep:
+      return Judge();
+  }
+}
+
+// Damping follows Levenberg and Marquardt.
+void ShapeCalibration::Judge() {
+  if (next_cost_ < cost_) {
+    state_ = std::move(next_);
+    is_last_ =
+        cost_ - next_cost_ < kConverged * next_cost_ || ++iteration_ == config_.max_iterations;
+    cost_ = next_cost_;
+    damping_ = std::max(0.1 * damping_, kLeastDamping);
+    return BeginPart(Part::kEquations);
+  }
+  damping_ *= 10.0;
+  is_last_ = damping_ >= kMostDamping;
+  if (is_last_) damping_ = 0.0;
+  BeginPart(Part::kReduction);
+}
+
+void ShapeCalibration::Conclude() {
+  const MatrixXd covariance =
+      matrix_.ldlt().solve(MatrixXd::Identity(matrix_.rows(), matrix_.cols()));
+  double squares = 0.0, count = 0.0;
+  for (const FrameEquations& frame : equations_) {
+    squares += frame.squares;
+    count += frame.count;
+  }
+  CalibratedShape shape{*state_->model,
+                        state_->values,
+                        covariance,
+                        {},
+                        {},
+                        {},
+                        state_->poses,
+                        count > 0.0 ? std::sqrt(squares / count) : 0.0};
+  SetLengths(parameters_, shape);
+  if (HasLearned(parameters_, shape, config_.max_remaining_sigma)) {
+    result_ = {std::move(shape), std::nullopt};
+  } else {
+    result_ = {std::nullopt, ShapeRefusal::kNothingLearned};
+  }
+}
+
 ShapeResult CalibrateShape(const ShapeParameters& parameters, const std::vector<ShapeFrame>& frames,
                            const ShapeConfig& config) {
-  config.Validate();
-  Require(parameters, frames);
-  if (frames.size() < static_cast<std::size_t>(config.min_frames)) {
-    return {std::nullopt, ShapeRefusal::kTooFewFrames};
-  }
-  if (PointCount(frames) < static_cast<std::size_t>(config.min_points)) {
-    return {std::nullopt, ShapeRefusal::kTooFewPoints};
-  }
-  const ShapeProblem problem(parameters, frames, config);
-  ShapeState state = Minimise(problem, config.max_iterations);
-  const MatrixXd information = problem.Reduced(problem.Equations(state), state.values, 0.0).first;
-  const MatrixXd covariance =
-      information.ldlt().solve(MatrixXd::Identity(information.rows(), information.cols()));
-  CalibratedShape shape{parameters.Apply(state.values), state.values, covariance, {}, {}, {},
-                        std::move(state.poses),         0.0};
-  shape.rms_sigmas = problem.Rms({shape.values, shape.poses});
-  SetLengths(parameters, shape);
-  if (!HasLearned(parameters, shape, config.max_remaining_sigma)) {
-    return {std::nullopt, ShapeRefusal::kNothingLearned};
-  }
-  return {std::move(shape), std::nullopt};
+  ShapeCalibration calibration(parameters, frames, config);
+  while (!calibration.IsOver()) calibration.Advance(1);
+  return calibration.result();
 }
 
 }  // namespace deixis::pose_fitter

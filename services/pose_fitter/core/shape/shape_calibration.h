@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,10 @@
 #include "services/pose_fitter/core/shape/shape_parameters.h"
 
 namespace deixis::pose_fitter {
+
+struct FrameEquations;
+class ShapeBodies;
+class ShapeProblem;
 
 struct ShapeConfig {
   int min_frames = 20;             ///< Fewer frames are refused.
@@ -73,8 +78,48 @@ struct ShapeResult {
 /// The shape of one person from several frames: shape and all poses together by Gauss-Newton, each
 /// frame's pose eliminated from the normal equations (Schur complement), as in bundle adjustment.
 /// What the points do not show stays as the prior has it. Which limb a point belongs to depends on
-/// the shape: giving the points anew and calibrating again makes lengths better. Throws
-/// std::logic_error when a pose or limb is not the model's.
+/// the shape: giving the points anew and calibrating again makes lengths better. In small parts, so
+/// that nobody waits for it; the result does not depend on the parts.
+class ShapeCalibration {
+ public:
+  /// Throws std::logic_error when a pose or limb is not the model's.
+  ShapeCalibration(ShapeParameters parameters, std::vector<ShapeFrame> frames,
+                   const ShapeConfig& config);
+  ~ShapeCalibration();
+
+  /// Does the work of this many frames in one of the parts of an iteration.
+  void Advance(int frames);
+  bool IsOver() const { return result_.has_value(); }
+  /// Once it is over.
+  const ShapeResult& result() const { return *result_; }
+
+ private:
+  enum class Part { kFirstCost, kEquations, kReduction, kStep };
+  void DoFrame();
+  void EndPart();
+  void BeginPart(Part part);
+  void Judge();
+  void Conclude();
+
+  struct State;  ///< A shape with all poses.
+  ShapeParameters parameters_;
+  std::vector<ShapeFrame> frames_;
+  ShapeConfig config_;
+  std::unique_ptr<ShapeProblem> problem_;
+  std::unique_ptr<State> state_, next_;
+  Part part_ = Part::kFirstCost;
+  std::size_t frame_ = 0;
+  int iteration_ = 0;
+  bool is_last_ = false;  ///< Only what the result rests on is still to be had.
+  double cost_ = 0.0, next_cost_ = 0.0, damping_ = 0.0;
+  std::unique_ptr<ShapeBodies> bodies_;
+  std::vector<FrameEquations> equations_;
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd vector_, shape_step_;
+  std::optional<ShapeResult> result_;
+};
+
+/// The same at once.
 ShapeResult CalibrateShape(const ShapeParameters& parameters, const std::vector<ShapeFrame>& frames,
                            const ShapeConfig& config);
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace deixis::pose_fitter {
 namespace {
@@ -93,19 +93,22 @@ std::string WithoutSide(const std::string& limb) {
 double& Value(Limb& limb, const std::string& key) {
   auto& origin_m = limb.rest_in_parent.translation_m;
   auto& shape = limb.shape;
-  const std::map<std::string, double*> values = {{"origin.x", &origin_m.x()},
-                                                 {"origin.y", &origin_m.y()},
-                                                 {"origin.z", &origin_m.z()},
-                                                 {"length", &shape.length_m},
-                                                 {"proximal.a", &shape.a0_m},
-                                                 {"proximal.b", &shape.b0_m},
-                                                 {"proximal.x", &shape.centre0_m.x()},
-                                                 {"proximal.y", &shape.centre0_m.y()},
-                                                 {"distal.a", &shape.a1_m},
-                                                 {"distal.b", &shape.b1_m},
-                                                 {"distal.x", &shape.centre1_m.x()},
-                                                 {"distal.y", &shape.centre1_m.y()}};
-  return *values.at(key);
+  const std::pair<const char*, double*> values[] = {{"origin.x", &origin_m.x()},
+                                                    {"origin.y", &origin_m.y()},
+                                                    {"origin.z", &origin_m.z()},
+                                                    {"length", &shape.length_m},
+                                                    {"proximal.a", &shape.a0_m},
+                                                    {"proximal.b", &shape.b0_m},
+                                                    {"proximal.x", &shape.centre0_m.x()},
+                                                    {"proximal.y", &shape.centre0_m.y()},
+                                                    {"distal.a", &shape.a1_m},
+                                                    {"distal.b", &shape.b1_m},
+                                                    {"distal.x", &shape.centre1_m.x()},
+                                                    {"distal.y", &shape.centre1_m.y()}};
+  for (const auto& [name, value] : values) {
+    if (key == name) return *value;
+  }
+  throw std::logic_error("no length " + key);
 }
 
 /// Variance of a measure among people of one stature.

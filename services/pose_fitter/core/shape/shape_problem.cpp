@@ -23,25 +23,24 @@ constexpr double kFarthest_sigmas = 6.0;
 
 /// The point of a limb's surface that explains a measured one.
 struct Contact {
-  Vector3d normal = Vector3d::Zero();  ///< Outward, camera frame.
-  double distance_m = 0.0;             ///< Signed, of the measured point.
-  double variance_m2 = 0.0;            ///< Along the normal.
+  Vector3d place_m = Vector3d::Zero();  ///< Limb's frame.
+  Vector3d normal = Vector3d::Zero();   ///< Outward, camera frame.
+  double distance_m = 0.0;              ///< Signed, of the measured point.
+  double variance_m2 = 0.0;             ///< Along the normal.
 };
-
-geometry::ClosestPoint Closest(const Kinematics& kinematics, const ShapePoint& point) {
-  const auto& limb = kinematics.model().limbs()[static_cast<std::size_t>(point.limb)];
-  return geometry::FindClosest(limb.shape, kinematics.limb(point.limb).inverse() * point.point_m);
-}
 
 /// Nothing for points that say nothing of the limb: beside its hidden ends, grazing, far off.
 std::optional<Contact> ContactOf(const Kinematics& kinematics, const ShapePoint& point,
                                  const ShapeConfig& config) {
-  const geometry::ClosestPoint closest = Closest(kinematics, point);
+  const auto& limb = kinematics.model().limbs()[static_cast<std::size_t>(point.limb)];
+  const geometry::ClosestPoint closest =
+      geometry::FindClosest(limb.shape, kinematics.limb(point.limb).inverse() * point.point_m);
   const bool has_open_end = kinematics.model().children(point.limb).empty();
   const bool is_open = closest.part == geometry::CylinderPart::kSide ||
                        (has_open_end && closest.part == geometry::CylinderPart::kDistalDisc);
   if (!is_open) return std::nullopt;
   Contact contact;
+  contact.place_m = closest.point_m;
   contact.normal = kinematics.limb(point.limb).linear() * closest.normal;
   contact.distance_m = closest.signed_distance_m;
   const double facing = -contact.normal.dot(point.point_m.normalized());
@@ -59,13 +58,9 @@ double SquareOf(const Contact& contact) {
 /// Weight of one point's squared error, 1 / m^2.
 double Weight(const Contact& contact, const ShapeConfig& config) {
   const double limit = config.robust_sigmas * config.robust_sigmas;
-  const double robust = std::pow(limit / (limit + SquareOf(contact)), 2);
+  const double share = limit / (limit + SquareOf(contact));
+  const double robust = share * share;
   return robust / contact.variance_m2 / config.points_per_observation;
-}
-
-FrameEquations Empty(Eigen::Index poses, Eigen::Index shapes) {
-  return {MatrixXd::Zero(poses, poses), MatrixXd::Zero(poses, shapes),
-          MatrixXd::Zero(shapes, shapes), VectorXd::Zero(poses), VectorXd::Zero(shapes)};
 }
 
 VectorXd PoseDifference(const BodyPose& from, const BodyPose& to) {
@@ -92,33 +87,69 @@ MatrixXd Damped(const FrameEquations& frame, double damping) {
   return matrix;
 }
 
-/// The bodies with one parameter a step on each, posed alike: for numeric derivatives.
-class ChangedBodies {
- public:
-  ChangedBodies(const ShapeParameters& parameters, const std::vector<BodyModel>& models,
-                const BodyPose& pose)
-      : parameters_(parameters) {
-    for (const BodyModel& model : models) {
-      bodies_.emplace_back(model);
-      bodies_.back().Update(pose);
-    }
-  }
-  /// Of the point's distance by each parameter.
-  void Slopes(const ShapePoint& point, double distance_m, VectorXd& slopes) const {
-    slopes.setZero();
-    for (std::size_t k = 0; k < bodies_.size(); ++k) {
-      if (!parameters_.Changes(static_cast<int>(k), point.limb)) continue;
-      slopes[static_cast<Eigen::Index>(k)] =
-          (Closest(bodies_[k], point).signed_distance_m - distance_m) / kShapeStep;
-    }
-  }
-
- private:
-  const ShapeParameters& parameters_;
-  std::vector<Kinematics> bodies_;
+/// A place of a limb's surface by numbers that mean the same on a limb of another shape.
+struct SurfacePlace {
+  double height = 0.0;                               ///< Share of the length.
+  Eigen::Vector2d beside = Eigen::Vector2d::Zero();  ///< In semi-axes.
 };
 
+Eigen::Vector2d CentreAt(const geometry::DegenerateCylinder& shape, double height) {
+  return shape.centre0_m + height * (shape.centre1_m - shape.centre0_m);
+}
+
+Eigen::Vector2d AxesAt(const geometry::DegenerateCylinder& shape, double height) {
+  return {shape.a0_m + height * (shape.a1_m - shape.a0_m),
+          shape.b0_m + height * (shape.b1_m - shape.b0_m)};
+}
+
+SurfacePlace PlaceOf(const geometry::DegenerateCylinder& shape, const Vector3d& point_m) {
+  const double height = point_m.z() / shape.length_m;
+  return {height,
+          (point_m.head<2>() - CentreAt(shape, height)).cwiseQuotient(AxesAt(shape, height))};
+}
+
+Vector3d PointAt(const geometry::DegenerateCylinder& shape, const SurfacePlace& place) {
+  Vector3d point_m;
+  point_m << CentreAt(shape, place.height) + place.beside.cwiseProduct(AxesAt(shape, place.height)),
+      place.height * shape.length_m;
+  return point_m;
+}
+
+const geometry::DegenerateCylinder& ShapeOf(const Kinematics& kinematics, int limb) {
+  return kinematics.model().limbs()[static_cast<std::size_t>(limb)].shape;
+}
+
+std::vector<BodyModel> Models(const ShapeParameters& parameters, const VectorXd& values) {
+  std::vector<BodyModel> models{parameters.Apply(values)};
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    models.push_back(parameters.Apply(values + kShapeStep * VectorXd::Unit(values.size(), k)));
+  }
+  return models;
+}
+
 }  // namespace
+
+ShapeBodies::ShapeBodies(const ShapeParameters& parameters, const VectorXd& values)
+    : parameters_(parameters), models_(Models(parameters, values)), body_(models_.front()) {
+  for (std::size_t k = 1; k < models_.size(); ++k) changed_.emplace_back(models_[k]);
+}
+
+void ShapeBodies::Update(const BodyPose& pose) {
+  body_.Update(pose);
+  for (Kinematics& body : changed_) body.Update(pose);
+}
+
+void ShapeBodies::Slopes(int limb, const Vector3d& place_m, const Vector3d& normal,
+                         Eigen::Ref<VectorXd> slopes) const {
+  slopes.setZero();
+  const SurfacePlace place = PlaceOf(ShapeOf(body_, limb), place_m);
+  const Vector3d at_m = body_.limb(limb) * place_m;
+  for (std::size_t k = 0; k < changed_.size(); ++k) {
+    if (!parameters_.Changes(static_cast<int>(k), limb)) continue;
+    const Vector3d moved_m = changed_[k].limb(limb) * PointAt(ShapeOf(changed_[k], limb), place);
+    slopes[static_cast<Eigen::Index>(k)] = -normal.dot(moved_m - at_m) / kShapeStep;
+  }
+}
 
 ShapeProblem::ShapeProblem(const ShapeParameters& parameters, const std::vector<ShapeFrame>& frames,
                            const ShapeConfig& config)
@@ -135,112 +166,73 @@ ShapeProblem::ShapeProblem(const ShapeParameters& parameters, const std::vector<
   }
 }
 
-ShapeState ShapeProblem::Start() const {
-  ShapeState state{VectorXd::Zero(shapes_), {}};
-  for (const ShapeFrame& frame : frames_) state.poses.push_back(frame.pose);
-  return state;
+double ShapeProblem::Cost(const VectorXd& values) const {
+  return shape_information_.dot(values.cwiseAbs2());
 }
 
-double ShapeProblem::Cost(const ShapeState& state) const {
-  const BodyModel model = parameters_.Apply(state.values);
-  Kinematics kinematics(model);
-  const double limit = config_.robust_sigmas * config_.robust_sigmas;
-  double prior = shape_information_.dot(state.values.cwiseAbs2()), points = 0.0;
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    kinematics.Update(state.poses[i]);
-    const VectorXd off = PoseDifference(frames_[i].pose, state.poses[i]);
-    prior += pose_information_.dot(off.cwiseAbs2());
-    for (const ShapePoint& point : frames_[i].points) {
-      const auto contact = ContactOf(kinematics, point, config_);
-      // A point that explains nothing costs what robust errors tend to.
-      points += contact ? limit * SquareOf(*contact) / (limit + SquareOf(*contact)) : limit;
-    }
-  }
-  return prior + points / config_.points_per_observation;
-}
-
-FrameEquations ShapeProblem::EquationsOf(const BodyModel& model,
-                                         const std::vector<BodyModel>& changed,
-                                         const BodyPose& pose, const ShapeFrame& frame) const {
-  FrameEquations equations = Empty(poses_, shapes_);
-  Kinematics kinematics(model);
+double ShapeProblem::Cost(std::size_t frame, const BodyPose& pose, Kinematics& kinematics) const {
   kinematics.Update(pose);
-  const ChangedBodies others(parameters_, changed, pose);
-  equations.pose_pose.diagonal() = pose_information_;
-  equations.pose = -pose_information_.cwiseProduct(PoseDifference(frame.pose, pose));
-  Eigen::Matrix3Xd jacobian(3, poses_);
-  VectorXd by_pose(poses_), by_shape(shapes_);
-  for (const ShapePoint& point : frame.points) {
+  const double limit = config_.robust_sigmas * config_.robust_sigmas;
+  double points = 0.0;
+  for (const ShapePoint& point : frames_[frame].points) {
     const auto contact = ContactOf(kinematics, point, config_);
-    if (!contact) continue;
-    const Vector3d touched_m = point.point_m - contact->distance_m * contact->normal;
-    body_model::PointJacobian(kinematics, point.limb, touched_m, jacobian);
-    by_pose.noalias() = -jacobian.transpose() * contact->normal;
-    others.Slopes(point, contact->distance_m, by_shape);
-    const double weight = Weight(*contact, config_);
-    equations.pose_pose.selfadjointView<Eigen::Lower>().rankUpdate(by_pose, weight);
-    equations.pose_shape.noalias() += weight * by_pose * by_shape.transpose();
-    equations.shape_shape.noalias() += weight * by_shape * by_shape.transpose();
-    equations.pose.noalias() -= weight * contact->distance_m * by_pose;
-    equations.shape.noalias() -= weight * contact->distance_m * by_shape;
+    // A point that explains nothing costs what robust errors tend to.
+    points += contact ? limit * SquareOf(*contact) / (limit + SquareOf(*contact)) : limit;
   }
-  const MatrixXd whole = equations.pose_pose.selfadjointView<Eigen::Lower>();
-  equations.pose_pose = whole;
+  const VectorXd off = PoseDifference(frames_[frame].pose, pose);
+  return pose_information_.dot(off.cwiseAbs2()) + points / config_.points_per_observation;
+}
+
+FrameEquations ShapeProblem::Equations(std::size_t frame, const BodyPose& pose,
+                                       ShapeBodies& bodies) const {
+  bodies.Update(pose);
+  const auto& points = frames_[frame].points;
+  FrameEquations equations;
+  // Of each point: derivatives by pose and shape, and its error; all times the root of its weight.
+  MatrixXd columns(poses_ + shapes_ + 1, static_cast<Eigen::Index>(points.size()));
+  Eigen::Matrix3Xd jacobian(3, poses_);
+  Eigen::Index used = 0;
+  for (const ShapePoint& point : points) {
+    const auto contact = ContactOf(bodies.body(), point, config_);
+    if (!contact) continue;
+    auto column = columns.col(used++);
+    const Vector3d touched_m = point.point_m - contact->distance_m * contact->normal;
+    body_model::PointJacobian(bodies.body(), point.limb, touched_m, jacobian);
+    column.head(poses_).noalias() = -jacobian.transpose() * contact->normal;
+    bodies.Slopes(point.limb, contact->place_m, contact->normal, column.segment(poses_, shapes_));
+    column[poses_ + shapes_] = contact->distance_m;
+    column *= std::sqrt(Weight(*contact, config_));
+    equations.squares += SquareOf(*contact);
+  }
+  equations.count = static_cast<double>(used);
+  MatrixXd lower = MatrixXd::Zero(columns.rows(), columns.rows());
+  lower.selfadjointView<Eigen::Lower>().rankUpdate(columns.leftCols(used));
+  const MatrixXd whole = lower.selfadjointView<Eigen::Lower>();
+  equations.pose_pose = whole.topLeftCorner(poses_, poses_);
+  equations.pose_pose.diagonal() += pose_information_;
+  equations.pose_shape = whole.block(0, poses_, poses_, shapes_);
+  equations.shape_shape = whole.block(poses_, poses_, shapes_, shapes_);
+  equations.pose = -pose_information_.cwiseProduct(PoseDifference(frames_[frame].pose, pose)) -
+                   whole.col(poses_ + shapes_).head(poses_);
+  equations.shape = -whole.col(poses_ + shapes_).segment(poses_, shapes_);
   return equations;
 }
 
-std::vector<FrameEquations> ShapeProblem::Equations(const ShapeState& state) const {
-  const BodyModel model = parameters_.Apply(state.values);
-  std::vector<BodyModel> changed;
-  for (Eigen::Index k = 0; k < shapes_; ++k) {
-    changed.push_back(parameters_.Apply(state.values + kShapeStep * VectorXd::Unit(shapes_, k)));
-  }
-  std::vector<FrameEquations> all;
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    all.push_back(EquationsOf(model, changed, state.poses[i], frames_[i]));
-  }
-  return all;
+std::pair<MatrixXd, VectorXd> ShapeProblem::Prior(const VectorXd& values) const {
+  return {shape_information_.asDiagonal(), -shape_information_.cwiseProduct(values)};
 }
 
-std::pair<MatrixXd, VectorXd> ShapeProblem::Reduced(const std::vector<FrameEquations>& frames,
-                                                    const VectorXd& values, double damping) const {
-  MatrixXd matrix = shape_information_.asDiagonal();
-  VectorXd vector = -shape_information_.cwiseProduct(values);
-  for (const FrameEquations& frame : frames) {
-    const MatrixXd eliminated = Damped(frame, damping).ldlt().solve(frame.pose_shape);
-    matrix += frame.shape_shape - frame.pose_shape.transpose() * eliminated;
-    vector += frame.shape - eliminated.transpose() * frame.pose;
-  }
-  return {matrix, vector};
+void ShapeProblem::AddReduced(const FrameEquations& frame, double damping, MatrixXd& matrix,
+                              VectorXd& vector) {
+  const MatrixXd eliminated = Damped(frame, damping).ldlt().solve(frame.pose_shape);
+  matrix += frame.shape_shape - frame.pose_shape.transpose() * eliminated;
+  vector += frame.shape - eliminated.transpose() * frame.pose;
 }
 
-ShapeState ShapeProblem::Stepped(const ShapeState& state, const std::vector<FrameEquations>& frames,
-                                 double damping) const {
-  auto [matrix, vector] = Reduced(frames, state.values, damping);
-  matrix.diagonal() *= 1.0 + damping;
-  const VectorXd shape_step = matrix.ldlt().solve(vector);
-  ShapeState next{state.values + shape_step, {}};
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const VectorXd right = frames[i].pose - frames[i].pose_shape * shape_step;
-    next.poses.push_back(Moved(state.poses[i], Damped(frames[i], damping).ldlt().solve(right)));
-  }
-  return next;
-}
-
-double ShapeProblem::Rms(const ShapeState& state) const {
-  const BodyModel model = parameters_.Apply(state.values);
-  Kinematics kinematics(model);
-  double sum = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    kinematics.Update(state.poses[i]);
-    for (const ShapePoint& point : frames_[i].points) {
-      const auto contact = ContactOf(kinematics, point, config_);
-      if (!contact) continue;
-      sum += SquareOf(*contact);
-      count += 1.0;
-    }
-  }
-  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+BodyPose ShapeProblem::Stepped(const BodyPose& pose, const FrameEquations& frame,
+                               const VectorXd& shape_step, double damping) {
+  const VectorXd right = frame.pose - frame.pose_shape * shape_step;
+  return Moved(pose, Damped(frame, damping).ldlt().solve(right));
 }
 
 }  // namespace deixis::pose_fitter

@@ -65,7 +65,7 @@ TEST_P(PoseMethodTest, FollowsAPersonAndSaysWhatItKnowsOfErrors) {
   start.rates_rad_per_s.setZero(scene.model.angle_count());
   FollowedPerson person(settings, maker.Make(1.75, 0.01), maker.plan(), {start});
   const std::vector<std::uint8_t> taken(scene.view.z_m().size(), 0);
-  for (int i = 0; i < 3; ++i) person.Follow(scene.view, std::nullopt, taken, 1.0 / 30.0);
+  for (int i = 0; i < 3; ++i) person.Follow(scene.view, std::nullopt, {&taken}, 1.0 / 30.0);
   const body_model::TrackedBody body = person.Describe();
   EXPECT_LT(JointError_m(scene.model, scene.truth, body.pose), 0.025);
   const int size = GetParam() == FitMethod::kLimbIcp ? 0 : 6 + scene.model.angle_count();

@@ -174,6 +174,17 @@ TEST_F(UnusualPerson, GivesTheSameBytesTwice) {
   EXPECT_EQ(first.shape->model.id(), second.shape->model.id());
 }
 
+TEST_F(UnusualPerson, IsTheSameLearnedLittleByLittle) {
+  const auto frames = WithRoughPoses(Watch(truth_, 20, 250, kNoise_m, 9));
+  const auto at_once = CalibrateShape(parameters_, frames, config_);
+  ShapeCalibration calibration(parameters_, frames, config_);
+  int parts = 0;
+  for (; !calibration.IsOver(); ++parts) calibration.Advance(3);
+  EXPECT_GT(parts, 20);
+  ASSERT_TRUE(at_once.shape && calibration.result().shape);
+  EXPECT_EQ(calibration.result().shape->model.id(), at_once.shape->model.id());
+}
+
 TEST_F(UnusualPerson, CannotHavePosesOrLimbsOfAnotherModel) {
   auto frames = Watch(truth_, 20, 250, kNoise_m, 10).frames;
   frames[3].points[0].limb = truth_.limb_count();
