@@ -47,9 +47,13 @@ TEST_F(StarterTest, WearsTheBodyThatSuitsThePersonBest) {
   for (const auto* truth : {&small, &tall}) {
     test::Picture picture = test::Look(room_, 240);
     test::Draw(*truth, test::StandingIn(room_, *truth, 0.0, 2.8), 1, picture);
-    const auto starts = Find(picture);
-    ASSERT_FALSE(starts.empty());
+    Find(picture);
     const auto& regions = finder_.regions();
+    starter_.Begin(view_, regions, regions.regions[0], body_);
+    Effort effort{1 << 30};
+    starter_.Advance(view_, regions, effort);
+    const auto starts = starter_.TakeFound();  // Good enough or not.
+    ASSERT_FALSE(starts.empty());
     const auto in_small = starter_.Wear(view_, regions, starts, body_, small);
     const auto in_tall = starter_.Wear(view_, regions, starts, body_, tall);
     ASSERT_FALSE(in_small.empty());
