@@ -43,7 +43,7 @@ TEST_F(StarterTest, FindsTheRootOfSomebodyWhoStands) {
 }
 
 TEST_F(StarterTest, WearsTheBodyThatSuitsThePersonBest) {
-  const body_model::BodyModel small = test::ClothedBody(1.55), tall = test::ClothedBody(1.95);
+  const body_model::BodyModel small = test::ClothedBody(1.65), tall = test::ClothedBody(1.85);
   for (const auto* truth : {&small, &tall}) {
     test::Picture picture = test::Look(room_, 240);
     test::Draw(*truth, test::StandingIn(room_, *truth, 0.0, 2.8), 1, picture);
