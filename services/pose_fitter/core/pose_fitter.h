@@ -30,6 +30,8 @@ struct PoseFitterConfig {
   double guessed_sigma_m = 0.06;  ///< Of a stature that is told from the height of the head.
   double search_s = 0.3;          ///< How often new people are looked for.
   double most_taken = 0.3;        ///< Share of a region that those who are followed may have of it.
+  double least_moved = 0.05;  ///< Share of a region that has moved since people were last looked
+                              ///< for, of who is explained badly: furniture does not.
   SoundDepthConfig sound;
   FloorTrackerConfig floor;
   BackgroundModelConfig background;
@@ -53,6 +55,7 @@ struct PoseFitterConfig {
     v("guessed_sigma_m", guessed_sigma_m);
     v("search_s", search_s);
     v("most_taken", most_taken);
+    v("least_moved", least_moved);
     v("sound", sound);
     v("floor", floor);
     v("background", background);
@@ -68,6 +71,12 @@ struct PoseFitterConfig {
     v("shape", shape);
   }
   void Validate() const;  ///< Throws FaultsFound.
+};
+
+/// Somebody who is followed no longer.
+struct GonePerson {
+  body_model::BodyPose pose;
+  double time_s = 0.0;
 };
 
 /// Follows the people in the images of one depth camera.
@@ -93,13 +102,20 @@ class PoseFitter {
   void Forget();
   void ShareCues(const std::vector<PartCue>& cues);
   std::vector<PartCue>* OwnerOf(const PartCue& cue);  ///< nullptr = nobody.
-  void FollowAll(const std::vector<std::uint8_t>& foreground, double seconds);
+  void FollowAll(const std::vector<std::uint8_t>& foreground, double seconds, double time_s);
   void LearnRoom(const std::vector<std::uint8_t>& is_sound, double seconds);
   void FindNew(const std::vector<std::uint8_t>& is_sound, double time_s);
+  void NoteDepth(double time_s);
+  void SeeHeads();
   void Meet(const PersonRegion& region, double time_s, Effort& effort);
   void Search(double time_s, Effort& effort);
   void Conclude(double time_s);
-  PersonBody BodyOf(const PersonRegion& region) const;
+  std::size_t Dress(std::vector<Hypothesis>& starts);
+  void Recall(std::vector<Hypothesis>& starts) const;
+  double MovedShare(const PersonRegion& region) const;
+  bool IsOfSomebody(FollowedPerson& other) const;
+  bool HasStrayHead(const PersonRegion& region) const;
+  std::vector<PersonBody> BodiesOf(const PersonRegion& region) const;
   void Take(std::size_t person);
   int TakenPixels(const PersonRegion& region, std::vector<int>& by_person) const;
   void Number(double time_s);
@@ -119,6 +135,9 @@ class PoseFitter {
   std::vector<PartCue> free_cues_;              ///< Nobody's.
   std::vector<std::vector<PartCue>> own_cues_;  ///< Of each of people_.
   std::vector<std::unique_ptr<FollowedPerson>> people_;
+  std::vector<GonePerson> gone_;
+  std::vector<float> noted_m_, moved_from_m_;  ///< Depth of a while ago, and of one before that.
+  std::optional<double> noted_time_s_;
   std::vector<std::uint8_t> taken_;     ///< Per pixel: 0 = nobody's, else 1 + the person's place.
   std::vector<std::uint8_t> occupied_;  ///< Per pixel: whether it is near to somebody's limbs.
   std::optional<Timestamp> last_time_;
@@ -126,8 +145,9 @@ class PoseFitter {
   /// What is searched now.
   struct Quest {
     Eigen::Vector3d centre_m;
-    std::optional<PersonBody> body;  ///< Of somebody new.
+    std::vector<PersonBody> bodies;  ///< That somebody new may have, the likeliest first.
     int owner = -1;                  ///< Else whom it may tell of another pose.
+    bool moves = false;              ///< Somebody new.
   };
   std::optional<Quest> quest_;
   SearchedPlaces searched_;

@@ -86,6 +86,26 @@ TEST_F(FloorTrackerTest, SaysNothingWhereOnlyPeopleAreSeen) {
   EXPECT_FALSE(See(room));
 }
 
+TEST_F(FloorTrackerTest, SaysNothingOfAPlaneThatASurfaceOnlySwingsAbout) {
+  Room room;
+  room.pitch_rad = 0.5;
+  test::Picture picture = test::Look(room, 320, 0.003);
+  const body_model::Floor plane = room.Floor();
+  for (const double swing_m : {0.0, 0.07}) {
+    for (int v = 0; v < picture.depth_mm.rows; ++v) {
+      for (int u = 0; u < picture.depth_mm.cols; ++u) {
+        const double towards = -plane.normal.dot(picture.camera.Ray(u, v));
+        const double off_m = swing_m * std::sin(0.12 * u);
+        const double z_m = towards > 0.0 ? (plane.offset_m - off_m) / towards : 0.0;
+        picture.depth_mm.at<std::uint16_t>(v, u) =
+            static_cast<std::uint16_t>(z_m < 6.0 ? 1000.0 * z_m : 0.0);
+      }
+    }
+    tracker_.Reset();
+    EXPECT_EQ(See(picture).has_value(), swing_m == 0.0) << swing_m;
+  }
+}
+
 TEST_F(FloorTrackerTest, SaysNothingOfNothing) {
   const cv::Mat nothing(240, 320, CV_16UC1, cv::Scalar(0));
   const cv::Mat pixel(1, 1, CV_16UC1, cv::Scalar(1000));

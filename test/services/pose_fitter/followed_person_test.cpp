@@ -66,6 +66,26 @@ TEST_F(FollowedPersonTest, SettlesOnThePoseThatImagesSpeakFor) {
   EXPECT_LT(person.best().mean_score, 0.4);
 }
 
+TEST_F(FollowedPersonTest, TurnsAboutOnlyForAPoseThatIsMuchBetter) {
+  auto person = Follow({At(Turned(), 0.5)});
+  person.AddRivals({At(truth_, 0.25)});
+  EXPECT_TRUE(person.IsDoubtful()) << "no rival was taken";
+  person.AddRivals({At(truth_, 0.1)});
+  EXPECT_FALSE(person.IsDoubtful()) << "while several are tried";
+}
+
+TEST_F(FollowedPersonTest, StaysSomebodyAsLongAsAHeadIsSeen) {
+  empty_.depth_mm.setTo(static_cast<int>(1000.0 * truth_.frame_from_root.translation_m.z() + 60));
+  FollowSettings settings;
+  settings.follow.lost_score = 10.0;
+  FollowedPerson person(settings, person_, maker_.plan(), {At(truth_, 1.0)});
+  for (int i = 0; i < 30; ++i) Show(person, empty_);
+  person.SeeHead(true);
+  EXPECT_FALSE(person.IsNobody());
+  person.SeeHead(false);
+  EXPECT_TRUE(person.IsNobody());
+}
+
 TEST_F(FollowedPersonTest, CountsTheTimeOutOfSightAndSaysThatHeIsLost) {
   auto person = Follow({At(truth_, 0.2)});
   person.id = 3;

@@ -203,6 +203,17 @@ TEST_F(PeopleFinderTest, FindsHeadAndShouldersBeforeTheCamera) {
   EXPECT_GT(Recall(1), 0.95);
 }
 
+TEST_F(PeopleFinderTest, FindsSomebodyWhoIsOneSurfaceWithASofa) {
+  Room room;
+  room.AddSeated(0.0, 2.5, 1);
+  room.Add(Box{{-1.5, 2.35, 0.0}, {1.5, 3.2, 0.85}});  // Its back at his own.
+  const PeopleRegions& found = Find(room);
+  ASSERT_FALSE(found.heads.empty());
+  EXPECT_GT(Recall(1), 0.5);
+  const HeadShape& head = found.heads[0];
+  EXPECT_NE(found.labels[static_cast<std::size_t>(head.v_px * 320 + head.u_px)], 0);
+}
+
 TEST_F(PeopleFinderTest, SeesNobodyWhereNothingWasMeasured) {
   picture_ = test::Look({});
   picture_.depth_mm.setTo(0);

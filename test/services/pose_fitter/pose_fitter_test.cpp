@@ -91,6 +91,27 @@ TEST_F(PoseFitterTest, KeepsTheNumberOfSomebodyWhoWalksAndForgetsWhoHasGone) {
   EXPECT_TRUE(Show(empty).bodies.empty());
 }
 
+TEST_F(PoseFitterTest, FindsSomebodyOnASofaWithoutAFloor) {
+  room_.has_floor = false;
+  room_.pitch_rad = 0.0;
+  room_.Add(test::Box{{-1.6, 2.75, 0.0}, {1.6, 3.4, 0.9}});
+  for (int i = 0; i < 20; ++i) {
+    Show(WithPerson(test::StandingIn(room_, body_, 0.0, 2.6, 0.3 + 0.05 * i)));
+  }
+  const auto pose = test::StandingIn(room_, body_, 0.0, 2.6, 1.3);
+  const auto& poses = Show(WithPerson(pose));
+  ASSERT_EQ(poses.bodies.size(), 1U);
+  const auto& root = poses.bodies[0].pose.frame_from_root;
+  EXPECT_LT((root.translation_m - pose.frame_from_root.translation_m).norm(), 0.1);
+}
+
+TEST_F(PoseFitterTest, TakesNoFurnitureThatHasAHeadForPeople) {
+  room_.Add(test::Box{{0.5, 2.4, 0.0}, {1.0, 2.8, 1.0}});
+  room_.Add(test::Ball{{0.75, 2.6, 1.12}, 0.12});
+  const auto picture = test::Look(room_, kWidth_px);
+  for (int i = 0; i < 30; ++i) EXPECT_TRUE(Show(picture).bodies.empty()) << i;
+}
+
 TEST_F(PoseFitterTest, SeesNobodyWhereNothingWasMeasured) {
   auto picture = test::Look(room_, kWidth_px);
   picture.depth_mm.setTo(0);

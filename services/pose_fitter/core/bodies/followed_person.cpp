@@ -40,6 +40,7 @@ void FollowConfig::Validate() const {
   faults.Require(doubtful_score > 0.0, "doubtful_score", "must be positive");
   faults.Require(proven_score > 0.0, "proven_score", "must be positive");
   faults.Require(lost_score > 0.0, "lost_score", "must be positive");
+  faults.Require(turned_about >= 0.0, "turned_about", "must not be negative");
   faults.Require(least_points >= 10, "least_points", "must be at least 10");
   faults.Require(position_sigma_m >= 0.0, "position_sigma_m", "must not be negative");
   faults.Require(unseen_rad >= 0.0, "unseen_rad", "must not be negative");
@@ -119,7 +120,7 @@ void FollowedPerson::Fit(const std::optional<body_model::Floor>& floor, const Bo
   hypothesis.information = fitter_->information();
   Move(pose, seconds, hypothesis);
   const double score = hypothesis.result.score + FacingPenalty(settings_.start, pose) +
-                       settings_.limbs.cue_share * hypothesis.result.cue_cost;
+                       settings_.limbs.cue_share * hypothesis.result.cue_cost + hypothesis.handicap;
   const double share = std::min(1.0, seconds / (0.5 * settings_.follow.settle_s));
   hypothesis.mean_score += share * (score - hypothesis.mean_score);
 }
@@ -132,11 +133,16 @@ void FollowedPerson::Choose() {
   while (hypotheses_.size() > 1 && hypotheses_.back().age_s >= settings_.follow.settle_s) {
     hypotheses_.pop_back();
   }
+  if (hypotheses_.size() == 1) hypotheses_.front().handicap = 0.0;
   if (best().mean_score < settings_.follow.proven_score) is_proven_ = true;
 }
 
 void FollowedPerson::AddRivals(std::vector<Hypothesis> rivals) {
+  const body_model::BodyPose now = best().pose;
   for (Hypothesis& rival : rivals) {
+    // Front and back look much alike to depth, and nobody turns about between two images.
+    if (IsTurnedAbout(rival.pose, now)) rival.handicap = settings_.follow.turned_about;
+    rival.mean_score += rival.handicap;
     if (rival.mean_score < best().mean_score) hypotheses_.push_back(std::move(rival));
   }
 }
@@ -148,7 +154,14 @@ bool FollowedPerson::IsDoubtful() const {
 bool FollowedPerson::IsNobody() const {
   return best().age_s > 2.0 * settings_.follow.settle_s &&
          best().mean_score >
-             (is_proven_ ? settings_.follow.lost_score : settings_.start.worst_score);
+             (is_proven_ || has_head_ ? settings_.follow.lost_score : settings_.start.worst_score);
+}
+
+std::optional<Eigen::Vector3d> FollowedPerson::HeadMiddle_m() {
+  const auto head = model_->Find("head");
+  if (!head) return std::nullopt;
+  kinematics_->Update(best().pose);
+  return 0.5 * (kinematics_->proximal_m(*head) + kinematics_->distal_m(*head));
 }
 
 // Images for the person's shape: such without doubt, apart from each other.

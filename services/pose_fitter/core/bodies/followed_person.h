@@ -19,6 +19,7 @@ struct FollowConfig {
   double settle_s = 0.5;            ///< Time that rival poses have to prove themselves.
   double doubtful_score = 0.4;      ///< From here on other poses of the person are tried.
   double proven_score = 0.35;       ///< Who was once explained so well is somebody,
+  double turned_about = 0.3;        ///< Added to the score of rivals that look the other way.
   double lost_score = 0.8;          ///< and only gone from here on; others by `worst_score`.
   int least_points = 50;            ///< With fewer a person is not seen.
   double position_sigma_m = 0.010;  ///< Spread of joint places that a fit does not know of.
@@ -37,6 +38,7 @@ struct FollowConfig {
     v("settle_s", settle_s);
     v("doubtful_score", doubtful_score);
     v("proven_score", proven_score);
+    v("turned_about", turned_about);
     v("lost_score", lost_score);
     v("least_points", least_points);
     v("position_sigma_m", position_sigma_m);
@@ -87,6 +89,11 @@ class FollowedPerson {
   const Hypothesis& best() const { return hypotheses_.front(); }
   const BodyEvidence& evidence() const { return evidence_; }
   const body_model::BodyModel& model() const { return *model_; }
+  /// Nothing where the model has no head.
+  std::optional<Eigen::Vector3d> HeadMiddle_m();
+  /// Whether the image shows a head where the body has it. Somebody with a head is there, however
+  /// badly he is explained.
+  void SeeHead(bool is_seen) { has_head_ = is_seen; }
   double unseen_s() const { return unseen_s_; }
   bool IsDoubtful() const;
   bool IsNobody() const;  ///< It has been explained badly for too long.
@@ -117,6 +124,7 @@ class FollowedPerson {
   std::vector<Hypothesis> hypotheses_;  ///< The best one first.
   std::unique_ptr<LimbSearch> search_;
   bool is_proven_ = false;
+  bool has_head_ = false;
   double unseen_s_ = 0.0;
   std::vector<ShapeFrame> frames_;
   double since_frame_s_ = 0.0;

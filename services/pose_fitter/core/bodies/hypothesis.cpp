@@ -16,6 +16,13 @@ body_model::BodyPose Predict(const Hypothesis& hypothesis, double seconds, doubl
   return pose;
 }
 
+bool IsTurnedAbout(const body_model::BodyPose& pose, const body_model::BodyPose& other) {
+  const auto forward = [](const body_model::BodyPose& of) {
+    return of.frame_from_root.rotation * Eigen::Vector3d::UnitX();
+  };
+  return forward(pose).dot(forward(other)) < 0.0;
+}
+
 void Move(const body_model::BodyPose& pose, double seconds, Hypothesis& hypothesis) {
   const body_model::BodyPose& before = hypothesis.pose;
   hypothesis.velocity_m_per_s =

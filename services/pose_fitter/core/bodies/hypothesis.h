@@ -16,11 +16,16 @@ struct Hypothesis {
   Eigen::MatrixXd information;  ///< Of its last fit, in the order of body_model::PointJacobian;
                                 ///< 0 x 0 = not known.
   double mean_score = 0.0;      ///< Of the last few images; smaller is better.
+  double handicap = 0.0;        ///< In each score, beside what the images say.
+  double worst_score = 0.0;     ///< Mean scores above it are nobody's; until somebody is proven.
   double age_s = 0.0;
 };
 
 /// Where it will be after `seconds`, when `share` of its motion goes on.
 body_model::BodyPose Predict(const Hypothesis& hypothesis, double seconds, double share);
+
+/// Whether the one looks where the other turns its back.
+bool IsTurnedAbout(const body_model::BodyPose& pose, const body_model::BodyPose& other);
 
 /// Takes over a fitted pose, `seconds` after the last one, with the motion that it tells.
 void Move(const body_model::BodyPose& pose, double seconds, Hypothesis& hypothesis);

@@ -22,8 +22,9 @@ class BodyMaker {
   explicit BodyMaker(const std::string& plan_file);
 
   const body_model::BodyPlan& plan() const { return plan_; }
-  /// Of a person of that stature, give or take `sigma_m`; nothing = of anybody.
-  PersonBody Make(std::optional<double> stature_m, double sigma_m) const;
+  /// Of a person of that stature, give or take `sigma_m`; nothing = of anybody. `build`: how much
+  /// broader than others of that stature, in standard deviations.
+  PersonBody Make(std::optional<double> stature_m, double sigma_m, double build = 0.0) const;
 
  private:
   anthropometry::Populations populations_;

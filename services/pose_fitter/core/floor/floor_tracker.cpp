@@ -31,6 +31,11 @@ constexpr double kSameHeight_m = 0.015;
 constexpr FloorTolerance kSearchTolerance = {2.5F, 0.03F};
 constexpr FloorTolerance kTrackTolerance = {3.0F, 0.06F};
 constexpr FloorTolerance kFineTolerance = {1.5F, 0.01F};
+constexpr FloorTolerance kCloseTolerance = {1.0F, 0.008F};
+constexpr float kClose = 0.38F;  // Of what is on a plane lies so close to it; of what only passes
+                                 // through it, about a third.
+constexpr float kLargeClose = 0.33F;  // A large one may be rough, or its depth be bad.
+constexpr double kLarge_m2 = 0.6;     // Seen head on.
 
 double Radians(double degrees) { return degrees * M_PI / 180.0; }
 
@@ -265,9 +270,12 @@ double FloorTracker::Score(const Slopes& slopes) const {
 /// on.
 bool FloorTracker::HasSupport(const Slopes& slopes) const {
   const FloorSupport support = SupportOf(samples(), PlaneOf(slopes), kSearchTolerance);
+  const FloorSupport close = SupportOf(samples(), PlaneOf(slopes), kCloseTolerance);
+  const bool is_large = static_cast<double>(support.on) * sample_area_ > kLarge_m2;
+  const float least_close = is_large ? kLargeClose : kClose;
   const double facing = 0.25;  // How much a floor is foreshortened, roughly.
   return static_cast<double>(support.on) * sample_area_ > facing * config_.least_area_m2 &&
-         support.on > 4.0F * support.below;
+         support.on > 4.0F * support.below && (known_ || close.on > least_close * support.on);
 }
 
 std::optional<FloorTracker::Slopes> FloorTracker::Refined(Slopes slopes,

@@ -13,7 +13,9 @@ namespace {
 
 constexpr double kHeightSigmas = 1.5;  // Noise of the floor that is cut off with it.
 constexpr double kAnyHeight_m = 100.0;
-constexpr double kSeedShare = 0.3;  // Of a piece that must be expected to be somebody's.
+constexpr double kLiftedArms_m = 0.8;  // Above the middle of a head,
+constexpr double kBelowHead_m = 1.9;   // and feet below it.
+constexpr double kSeedShare = 0.3;     // Of a piece that must be expected to be somebody's.
 constexpr int kLevelRows = 60;  // Rows of a picture, over how far apart level pixels are compared.
 constexpr int kTopBins = 140;   // Centimetres: nothing higher is sat or lain on.
 
@@ -33,10 +35,15 @@ void PeopleFinderConfig::Validate() const {
   faults.Require(seed_reach_m >= 0.0, "seed_reach_m", "must not be negative");
   faults.Require(least_likeness >= 0.0 && least_likeness <= 1.0, "least_likeness",
                  "must lie between 0 and 1");
+  faults.Require(least_head >= 0.0 && least_head <= 1.0, "least_head", "must lie between 0 and 1");
+  faults.Require(head_reach_m > 0.0, "head_reach_m", "must be positive");
+  faults.Require(head_depth_m > 0.0, "head_depth_m", "must be positive");
   faults.ThrowIfAny();
 }
 
-PeopleFinder::PeopleFinder(const PeopleFinderConfig& config) : config_(config) {
+PeopleFinder::PeopleFinder(const PeopleFinderConfig& config)
+    : config_(config), heads_(config.heads) {
+  regions_.heads.reserve(static_cast<std::size_t>(config.heads.most));
   config_.Validate();
   config_.shape.Validate();
 }
@@ -60,6 +67,7 @@ const PeopleRegions& PeopleFinder::Find(const DepthView& depth,
                runs_);
   Group(depth);
   Write(depth);
+  AddHeads(depth, is_sound);
   return regions_;
 }
 
@@ -226,6 +234,49 @@ void PeopleFinder::Write(const DepthView& depth) {
     auto* row = regions_.labels.data() + run.row_px * static_cast<std::ptrdiff_t>(depth.width_px());
     std::fill(row + run.begin_px, row + run.end_px, label);
   }
+}
+
+/// Heads that no region has: their bodies are one surface with something else, or look unlike
+/// people from the shoulders down.
+void PeopleFinder::AddHeads(const DepthView& depth, const std::vector<std::uint8_t>& is_sound) {
+  const Eigen::Vector3d up = room_.room_from_camera.row(2).transpose();
+  regions_.heads = heads_.Find(depth, is_sound, up, config_.near_m, config_.far_m);
+  const int width = depth.width_px();
+  for (const HeadShape& head : regions_.heads) {
+    const auto middle = static_cast<std::size_t>(head.v_px * width + head.u_px);
+    if (head.likeness < config_.least_head) break;
+    if (regions_.labels[middle] != 0 || regions_.regions.size() >= SurfacePieces::kMost) continue;
+    const double height_m = room_.FromCamera(head.middle_m).z();
+    const HeadReach reach{config_.head_reach_m, config_.head_depth_m, kLiftedArms_m,
+                          has_floor_ ? height_m - config_.lowest_m : kBelowHead_m, gate_.step};
+    if (has_floor_ && (height_m < config_.shape.lowest_top_m || height_m > config_.highest_m)) {
+      continue;
+    }
+    AddRegion(depth, head, head_region_.Find(depth, is_sound, regions_.labels, head, up, reach));
+  }
+}
+
+void PeopleFinder::AddRegion(const DepthView& depth, const HeadShape& head,
+                             const std::vector<int>& pixels) {
+  PersonRegion region;
+  region.label = static_cast<int>(regions_.regions.size()) + 1;
+  region.pixel_count = static_cast<int>(pixels.size());
+  region.likeness = config_.least_likeness;
+  double low_m = kAnyHeight_m;
+  for (const int pixel : pixels) {
+    const int u = pixel % depth.width_px(), v = pixel / depth.width_px();
+    regions_.labels[static_cast<std::size_t>(pixel)] = static_cast<std::uint8_t>(region.label);
+    const Eigen::Vector3d point_m = depth.Point(u, v);
+    region.centroid_m += point_m / region.pixel_count;
+    region.area_m2 += point_m.z() * point_m.z() / depth.camera().focal_px.prod();
+    const double height_m = room_.FromCamera(point_m).z();
+    low_m = std::min(low_m, height_m);
+    region.box_px |= cv::Rect(u, v, 1, 1);
+  }
+  const double ground_m = has_floor_ ? 0.0 : low_m;
+  region.top_m = room_.FromCamera(head.top_m).z() - ground_m;
+  region.bottom_m = low_m - ground_m;
+  regions_.regions.push_back(region);
 }
 
 }  // namespace deixis::pose_fitter

@@ -9,6 +9,8 @@
 #include "common/config/config.h"
 #include "services/pose_fitter/core/depth/depth_view.h"
 #include "services/pose_fitter/core/people/gate_kernels.h"
+#include "services/pose_fitter/core/people/head_region.h"
+#include "services/pose_fitter/core/people/head_shapes.h"
 #include "services/pose_fitter/core/people/person_evidence.h"
 #include "services/pose_fitter/core/people/person_shape.h"
 #include "services/pose_fitter/core/people/seed_territory.h"
@@ -35,6 +37,7 @@ struct PersonRegion {
 struct PeopleRegions {
   std::vector<std::uint8_t> labels;   ///< Per pixel, row by row: 0 = nobody, else a region's label.
   std::vector<PersonRegion> regions;  ///< The most likely first.
+  std::vector<HeadShape> heads;  ///< What looks like heads above shoulders; the most likely first.
   std::optional<body_model::Floor> floor;  ///< In the camera's optical frame.
 };
 
@@ -51,6 +54,10 @@ struct PeopleFinderConfig {
   double top_thickness_m = 0.02;  ///< which are so thick at most, to either side.
   double seed_reach_m = 0.12;     ///< Around where somebody is expected, pixels are still his.
   double least_likeness = 0.3;    ///< From this on something is taken for a person.
+  double least_head = 0.9;    ///< From this likeness on a head is a person without any more ado,
+  double head_reach_m = 0.5;  ///< with what is connected with it as near to its vertical
+  double head_depth_m = 0.4;  ///< and to its depth.
+  HeadShapesConfig heads;
   PersonShapeConfig shape;
 
   template <typename Visitor>
@@ -67,6 +74,10 @@ struct PeopleFinderConfig {
     v("top_thickness_m", top_thickness_m);
     v("seed_reach_m", seed_reach_m);
     v("least_likeness", least_likeness);
+    v("least_head", least_head);
+    v("head_reach_m", head_reach_m);
+    v("head_depth_m", head_depth_m);
+    v("heads", heads);
     v("shape", shape);
   }
   void Validate() const;
@@ -100,6 +111,8 @@ class PeopleFinder {
   PersonRegion RegionOf(int group) const;
   void Rank();
   void Write(const DepthView& depth);
+  void AddHeads(const DepthView& depth, const std::vector<std::uint8_t>& is_sound);
+  void AddRegion(const DepthView& depth, const HeadShape& head, const std::vector<int>& pixels);
 
   PeopleFinderConfig config_;
   RoomFrame room_;
@@ -115,6 +128,8 @@ class PeopleFinder {
   SeedTerritory territory_;
   PersonGroups groups_;
   PersonEvidences evidences_;
+  HeadShapes heads_;
+  HeadRegion head_region_;
   std::vector<int> ranked_;  ///< Groups, the most likely first.
   std::vector<std::uint8_t> label_of_group_;
   PeopleRegions regions_;

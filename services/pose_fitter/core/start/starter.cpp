@@ -4,11 +4,21 @@
 #include <limits>
 #include <utility>
 
+#include "common/body_model/joint_angles.h"
+#include "common/body_model/kinematics.h"
 #include "common/config/config.h"
 #include "services/pose_fitter/core/start/start_poses.h"
 
 namespace deixis::pose_fitter {
 namespace {
+
+constexpr double kSameTop_m = 0.1;
+constexpr double kSameHead_m = 0.25;    // Between the head of a pose and one that is seen.
+constexpr double kHeadMargin_m = 0.25;  // Heads nearer to the picture's edge may not be told.
+constexpr double kLowNoise_m = 0.015, kHighNoise_m = 0.04;
+constexpr double kNoisyTrunk = 0.4, kNoisyCertainTrunk = 0.25;  // More of it where noise is high.
+constexpr double kTrunkRamp = 0.15;
+constexpr double kLower_m = 0.2, kBody_m = 1.5, kBeside_m = 0.5;  // Of a body below its head.
 
 BodyEvidenceConfig Coarse(BodyEvidenceConfig evidence, int points) {
   evidence.points = points;
@@ -30,6 +40,28 @@ BodyFitterConfig CoarseFit(const StarterConfig& config, const BodyFitterConfig& 
   return coarse;
 }
 
+/// Of the head above the root, of somebody who stands.
+double HeadHeight_m(const body_model::BodyModel& model) {
+  const auto head = model.Find("head");
+  if (!head) return 0.0;
+  body_model::Kinematics kinematics(model);
+  kinematics.Update(body_model::Standing(model));
+  return kinematics.distal_m(*head).z();
+}
+
+/// 0 up to `none`, 1 from `full` on, straight between.
+double Ramp(double value, double none, double full) {
+  return std::clamp((value - none) / (full - none), 0.0, 1.0);
+}
+
+/// Whether a head there may be cut by the edge of the picture, so that it does not look like one.
+bool IsNearEdge(const DepthView& view, const Eigen::Vector3d& point_m) {
+  const double margin_px = kHeadMargin_m * view.camera().focal_px.x() / point_m.z();
+  const Eigen::Vector2d at_px = view.camera().Project(point_m);
+  return at_px.x() < margin_px || at_px.y() < margin_px ||
+         at_px.x() > view.width_px() - margin_px || at_px.y() > view.height_px() - margin_px;
+}
+
 }  // namespace
 
 void StarterConfig::Validate() const {
@@ -47,8 +79,28 @@ void StarterConfig::Validate() const {
   faults.Require(gate_m > 0.0, "gate_m", "must be positive");
   faults.Require(worst_score > 0.0, "worst_score", "must be positive");
   faults.Require(least_trunk >= 0.0 && least_trunk <= 1.0, "least_trunk", "must be 0..1");
+  faults.Require(worst_with_head >= worst_score, "worst_with_head",
+                 "must not be less than worst_score");
+  faults.Require(least_head >= 0.0 && least_head <= 1.0, "least_head", "must be 0..1");
+  faults.Require(certain_head >= least_head, "certain_head", "must not be less than least_head");
+  faults.Require(certain_trunk >= 0.0 && certain_trunk <= 1.0, "certain_trunk", "must be 0..1");
+  faults.Require(better_body >= 0.0, "better_body", "must not be negative");
   faults.Require(facing_away >= 0.0, "facing_away", "must not be negative");
   faults.ThrowIfAny();
+}
+
+bool IsBelowHead(const Eigen::Vector3d& point_m, const Eigen::Vector3d& head_m,
+                 const Eigen::Vector3d& up) {
+  const Eigen::Vector3d from_m = point_m - head_m;
+  const double lower_m = -up.dot(from_m);
+  return lower_m > kLower_m && lower_m < kBody_m && (from_m + lower_m * up).norm() < kBeside_m;
+}
+
+void DropNobodies(std::vector<Hypothesis>& starts) {
+  const auto is_nobody = [](const Hypothesis& start) {
+    return start.mean_score > start.worst_score;
+  };
+  starts.erase(std::remove_if(starts.begin(), starts.end(), is_nobody), starts.end());
 }
 
 double FacingPenalty(const StarterConfig& config, const body_model::BodyPose& pose) {
@@ -68,19 +120,26 @@ Starter::Starter(const StarterConfig& config, const BodyEvidenceConfig& evidence
       evidence_(evidence) {}
 
 void Starter::Begin(const DepthView& view, const PeopleRegions& regions, const PersonRegion& region,
-                    const body_model::BodyModel& model) {
+                    const body_model::BodyModel& model, Sought sought) {
+  sought_ = sought;
   guesses_.clear();
   next_ = 0;
   is_refining_ = false;
   facing_.reset();
   turned_.reset();
   int place = 0;
-  for (const Eigen::Vector3d& top_m : HeadTops(view, regions, region, config_.heads)) {
+  for (const Eigen::Vector3d& top_m : sought == Sought::kSomebodyNew
+                                          ? TopsOf(view, regions, region)
+                                          : AllTopsOf(view, regions, region)) {
     for (body_model::BodyPose& pose : StartPoses(model, top_m, regions.floor)) {
       guesses_.push_back({std::move(pose), place});
     }
     ++place;
   }
+  SetModel(model);
+}
+
+void Starter::SetModel(const body_model::BodyModel& model) {
   model_ = std::make_unique<body_model::BodyModel>(model);
   coarse_.emplace(coarse_fit_, *model_);
   first_.emplace(first_fit_, *model_);
@@ -152,10 +211,89 @@ std::optional<Hypothesis> Starter::Try(const DepthView& view, const PeopleRegion
   start.information = second_->information();
   start.rates_rad_per_s.setZero(guess.angles_rad.size());
   start.mean_score = start.result.score + FacingPenalty(config_, start.pose);
-  if (start.mean_score > config_.worst_score || start.result.trunk_seen < config_.least_trunk) {
-    return std::nullopt;
+  start.worst_score = WorstScore(view, regions.heads, start.result.trunk_seen);
+  if (sought_ == Sought::kOtherPoses) {
+    start.worst_score = std::max(start.worst_score, config_.worst_score);
   }
+  if (start.result.trunk_seen < config_.least_trunk) return std::nullopt;
   return start;
+}
+
+/// Where heads are seen; else where the outline may be one.
+std::vector<Eigen::Vector3d> Starter::TopsOf(const DepthView& view, const PeopleRegions& regions,
+                                             const PersonRegion& region) const {
+  const Eigen::Vector3d up =
+      regions.floor ? regions.floor->normal : Eigen::Vector3d(-Eigen::Vector3d::UnitY());
+  std::vector<Eigen::Vector3d> tops;
+  for (const HeadShape& head : regions.heads) {
+    const auto middle = static_cast<std::size_t>(head.v_px * view.width_px() + head.u_px);
+    if (head.likeness < config_.least_head || regions.labels[middle] != region.label) continue;
+    const bool is_below =
+        std::any_of(regions.heads.begin(), regions.heads.end(), [&](const HeadShape& other) {
+          return other.likeness >= config_.least_head && IsBelowHead(head.top_m, other.top_m, up);
+        });
+    if (!is_below && static_cast<int>(tops.size()) < config_.heads.most) tops.push_back(head.top_m);
+  }
+  if (!tops.empty()) return tops;
+  for (const Eigen::Vector3d& top_m : HeadTops(view, regions, region, config_.heads)) {
+    if (IsNearEdge(view, top_m)) tops.push_back(top_m);
+  }
+  return tops;
+}
+
+/// Peaks of the outline, and heads that are none of these.
+std::vector<Eigen::Vector3d> Starter::AllTopsOf(const DepthView& view, const PeopleRegions& regions,
+                                                const PersonRegion& region) const {
+  auto tops_m = HeadTops(view, regions, region, config_.heads);
+  for (const Eigen::Vector3d& top_m : TopsOf(view, regions, region)) {
+    const bool is_there = std::any_of(tops_m.begin(), tops_m.end(), [&](const auto& other_m) {
+      return (other_m - top_m).norm() < kSameTop_m;
+    });
+    if (!is_there) tops_m.push_back(top_m);
+  }
+  return tops_m;
+}
+
+/// Of the pose that the second fit has: whose head is certain and whose trunk is well in view may
+/// look worse otherwise, and who should have a head in the picture is nobody without it.
+double Starter::WorstScore(const DepthView& view, const std::vector<HeadShape>& heads,
+                           double trunk_seen) {
+  const auto head = second_->kinematics().model().Find("head");
+  if (!head) return config_.worst_score;
+  const Eigen::Vector3d middle_m =
+      0.5 * (second_->kinematics().proximal_m(*head) + second_->kinematics().distal_m(*head));
+  double likeness = 0.0;
+  for (const HeadShape& seen : heads) {
+    const bool is_here = (seen.middle_m - middle_m).norm() < kSameHead_m;
+    if (is_here) likeness = std::max(likeness, seen.likeness);
+  }
+  // The noisier the depth, the more of the trunk seems to be where it is by chance.
+  const double noise = Ramp(view.camera().noise.Sigma_m(middle_m.z()), kLowNoise_m, kHighNoise_m);
+  if (trunk_seen < config_.least_trunk + noise * kNoisyTrunk) return 0.0;
+  if (likeness < config_.least_head) {
+    return IsNearEdge(view, middle_m) ? config_.worst_score : 0.0;
+  }
+  if (likeness < config_.certain_head) return config_.worst_score;
+  const double certain = config_.certain_trunk + noise * kNoisyCertainTrunk;
+  return config_.worst_score + (config_.worst_with_head - config_.worst_score) *
+                                   Ramp(trunk_seen, certain - kTrunkRamp, certain);
+}
+
+std::vector<Hypothesis> Starter::Wear(const DepthView& view, const PeopleRegions& regions,
+                                      const std::vector<Hypothesis>& starts,
+                                      const body_model::BodyModel& before,
+                                      const body_model::BodyModel& model) {
+  const double taller_m = HeadHeight_m(model) - HeadHeight_m(before);
+  SetModel(model);
+  Effort endless{std::numeric_limits<int>::max()};
+  std::vector<Hypothesis> worn;
+  for (const Hypothesis& start : starts) {
+    body_model::BodyPose guess = start.pose;
+    guess.frame_from_root.translation_m -=
+        taller_m * (guess.frame_from_root.rotation * Eigen::Vector3d::UnitZ());
+    if (auto found = Try(view, regions, guess, endless)) worn.push_back(std::move(*found));
+  }
+  return worn;
 }
 
 bool Starter::Faces(const body_model::BodyPose& pose) const {
@@ -177,7 +315,9 @@ std::vector<Hypothesis> Starter::Find(const DepthView& view, const PeopleRegions
   Begin(view, regions, region, model);
   Effort endless{std::numeric_limits<int>::max()};
   Advance(view, regions, endless);
-  return TakeFound();
+  auto found = TakeFound();
+  DropNobodies(found);
+  return found;
 }
 
 }  // namespace deixis::pose_fitter

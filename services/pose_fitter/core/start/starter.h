@@ -24,7 +24,12 @@ struct StarterConfig {
   double rest_rad = 0.5;        ///< Spread of all joints about the start pose, in the first fit.
   double upright_rad = 0.25;    ///< Of the base limb about the vertical, likewise.
   double gate_m = 0.2;          ///< Pixels this near to a start pose may belong to the person.
-  double worst_score = 0.5;     ///< Fits that are worse are nobody.
+  double worst_score = 0.5;     ///< Fits that are worse are nobody;
+  double worst_with_head = 0.72;  ///< likewise, with a certain head and trunk.
+  double least_head = 0.8;  ///< Likeness of a head that is one; in the picture all people have one.
+  double certain_head = 0.9;    ///< Likeness of a head that is certainly one.
+  double certain_trunk = 0.75;  ///< Share of trunk and head that is, where depth has little noise.
+  double better_body = 0.02;    ///< By which a less likely body must be better.
   double least_trunk = 0.5;     ///< Share of trunk and head that must be seen.
   double facing_away = 0.04;    ///< Added to the score of who turns the back: robots are looked at.
   HeadTopsConfig heads;
@@ -42,12 +47,29 @@ struct StarterConfig {
     v("upright_rad", upright_rad);
     v("gate_m", gate_m);
     v("worst_score", worst_score);
+    v("worst_with_head", worst_with_head);
+    v("least_head", least_head);
+    v("certain_head", certain_head);
+    v("certain_trunk", certain_trunk);
+    v("better_body", better_body);
     v("least_trunk", least_trunk);
     v("facing_away", facing_away);
     v("heads", heads);
   }
   void Validate() const;  ///< Throws FaultsFound.
 };
+
+/// Whether somebody's body is there, whose head is above it: then what looks like another head is a
+/// knee, a fist, or what he holds. `up`: against gravity.
+bool IsBelowHead(const Eigen::Vector3d& point_m, const Eigen::Vector3d& head_m,
+                 const Eigen::Vector3d& up);
+
+/// Takes out those that are worse than they may be.
+void DropNobodies(std::vector<Hypothesis>& starts);
+
+/// Whom a search is for: somebody new, who has a head, or other poses of somebody who is known to
+/// be there, and whose head may not be told just now.
+enum class Sought { kSomebodyNew, kOtherPoses };
 
 /// What a pose that turns the back to the camera has added to its score.
 double FacingPenalty(const StarterConfig& config, const body_model::BodyPose& pose);
@@ -62,13 +84,19 @@ class Starter {
 
   /// Begins to search the region for a body; a search that was under way is given up.
   void Begin(const DepthView& view, const PeopleRegions& regions, const PersonRegion& region,
-             const body_model::BodyModel& model);
+             const body_model::BodyModel& model, Sought sought = Sought::kSomebodyNew);
   /// Goes on in this or a later image. `regions` are those of the image.
   void Advance(const DepthView& view, const PeopleRegions& regions, Effort& effort);
   bool IsBusy() const { return next_ < guesses_.size(); }
   /// What a search that is over has found: the best pose that faces the camera and the best one
-  /// that does not, as far as they are good; two at most.
+  /// that does not, as far as they may be; two at most. DropNobodies takes out the bad ones.
   std::vector<Hypothesis> TakeFound();
+
+  /// The same poses in another body, with the head where it was; as far as they are good.
+  std::vector<Hypothesis> Wear(const DepthView& view, const PeopleRegions& regions,
+                               const std::vector<Hypothesis>& starts,
+                               const body_model::BodyModel& before,
+                               const body_model::BodyModel& model);
 
   /// The same in one image.
   std::vector<Hypothesis> Find(const DepthView& view, const PeopleRegions& regions,
@@ -88,6 +116,12 @@ class Starter {
   std::optional<Hypothesis> Try(const DepthView& view, const PeopleRegions& regions,
                                 const body_model::BodyPose& guess, Effort& effort);
   bool Faces(const body_model::BodyPose& pose) const;
+  std::vector<Eigen::Vector3d> TopsOf(const DepthView& view, const PeopleRegions& regions,
+                                      const PersonRegion& region) const;
+  std::vector<Eigen::Vector3d> AllTopsOf(const DepthView& view, const PeopleRegions& regions,
+                                         const PersonRegion& region) const;
+  double WorstScore(const DepthView& view, const std::vector<HeadShape>& heads, double trunk_seen);
+  void SetModel(const body_model::BodyModel& model);
 
   StarterConfig config_;
   double gate_m_;
@@ -97,6 +131,7 @@ class Starter {
   BodyEvidence coarse_evidence_, evidence_;
   int gathered_place_ = -1;  ///< Of the coarse evidence of this image; -1 = none yet.
   bool is_refining_ = false;
+  Sought sought_ = Sought::kSomebodyNew;
   std::vector<Guess> guesses_;
   std::size_t next_ = 0;
   std::optional<Hypothesis> facing_, turned_;  ///< The best ones so far.
