@@ -7,9 +7,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import fake_demo
 import pytest
+from deixis import body_poses_t
 
 from deixis_frontend import layout
+from deixis_frontend.demo.bodies import Bodies
 from deixis_frontend.demo.clip import open_clip
 
 HERE = Path(__file__).resolve().parent
@@ -141,6 +144,16 @@ def test_without_multicast_bodies_are_fitted_in_one_process(
     assert result.returncode == 0, result.stdout + result.stderr
     assert BODY + "20" + LIMBS + "\n" in result.stdout
     assert "1 of 2 pointing gestures were named right" in result.stdout
+
+
+@pytest.mark.parametrize(("age_us", "is_slow"), [(80_000, False), (2_000_000, True)])
+def test_bodies_that_are_very_old_tell_of_a_slow_machine(age_us: int, is_slow: bool) -> None:
+    bodies = Bodies(body_poses_t)
+    for number in range(3):
+        utime = 50_000 * number
+        bodies.hear(fake_demo.fitted_to(fake_demo.picture(utime, number), ""), utime + age_us)
+    assert f"bodies were {age_us // 1000} ms old" in bodies.verdict()
+    assert ("too slow" in bodies.verdict()) == is_slow
 
 
 def test_the_clip_that_is_shipped_has_two_cameras() -> None:

@@ -10,6 +10,9 @@ import numpy as np
 from deixis_frontend.received import ChannelDecoder
 
 
+_MUCH_MS = 1000.0  # older bodies tell of a clip that is played late
+
+
 class Bodies:
     """Takes the bytes of BODY_POSES messages."""
 
@@ -58,4 +61,5 @@ class Bodies:
         if not self._ages_ms:
             return ""
         middle, high = np.percentile(self._ages_ms, [50, 99])
-        return f"; bodies were {middle:.0f} ms old when they came, 99 of 100 within {high:.0f} ms"
+        slow = ": this machine is too slow to play the clip at its rate" if middle > _MUCH_MS else ""
+        return f"; bodies were {middle:.0f} ms old when they came, 99 of 100 within {high:.0f} ms{slow}"
