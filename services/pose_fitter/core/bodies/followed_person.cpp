@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 #include "common/config/config.h"
 #include "services/pose_fitter/core/cues/cue_owner.h"
@@ -19,6 +20,8 @@ constexpr double kLimbsOwn_m = 0.05;  // What is so near to a limb is its own.
 constexpr int kMeasuredPoints = 8;
 constexpr double kMeasuredWithin_m = 0.035;
 constexpr double kMeasuredShare = 0.35;
+// Spread of places in people of one stature, of the distance to the root.
+constexpr double kProportions = 0.05;
 constexpr double kDoubted = 0.6;  // Share of a limb that counts as unseen when it is not measured.
 
 LimbState StateOf(const LimbEvidence& evidence) {
@@ -229,11 +232,12 @@ void FollowedPerson::AddUnseen(Eigen::MatrixXd& covariance) const {
   }
 }
 
-// Where a limb that is not measured is follows from lengths of which only the stature's spread is
-// known.
+// Where a limb that is not measured is follows from lengths, which are as uncertain as stature and
+// proportions are.
 void FollowedPerson::AddSize(body_model::TrackedBody& body) const {
   if (body.covariance.size() == 0) return;
-  const double share = estimate_.Spread_m("kph") / estimate_.Length_m("kph");
+  const double share =
+      std::hypot(estimate_.Spread_m("kph") / estimate_.Length_m("kph"), kProportions);
   const Eigen::Vector3d root_m = body.pose.frame_from_root.translation_m;
   const auto add = [&](const Eigen::Vector3d& point_m, Eigen::Matrix3d& covariance_m2) {
     const Eigen::Vector3d off_m = share * (point_m - root_m);
