@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/body_model/joint_angles.h"
 #include "common/config/config.h"
 
 namespace deixis::pose_fitter {
@@ -15,6 +16,7 @@ constexpr int kLeastPoints = 8;            // A limb with fewer is not seen.
 constexpr double kHandThickness_m = 0.02;  // Half of it: from what is seen to its middle.
 constexpr double kTip_m = 0.08;            // From the end of a hand or foot to its middle.
 constexpr double kElbowReach = 1.3;        // Upper arms: what ends farther away is no elbow.
+constexpr double kLegs = 3.0;              // They are held in unusual ways less often than arms.
 constexpr double kLeastSide = 0.1;         // Probability from which on a hand may be of this side.
 
 BodyEvidenceConfig Few(BodyEvidenceConfig evidence, int points) {
@@ -34,6 +36,7 @@ void LimbSearchConfig::Validate() const {
   faults.Require(period_s >= 0.0, "period_s", "must not be negative");
   faults.Require(better >= 0.0, "better", "must not be negative");
   faults.Require(cue_share >= 0.0, "cue_share", "must not be negative");
+  faults.Require(strain_share >= 0.0, "strain_share", "must not be negative");
   faults.Require(cue_m > 0.0, "cue_m", "must be positive");
   faults.Require(points >= 100, "points", "must be at least 100");
   faults.Require(iterations >= 1 && iterations <= 1000, "iterations", "must be 1..1000");
@@ -51,7 +54,8 @@ LimbSearch::LimbSearch(const LimbSearchConfig& config, const BodyEvidenceConfig&
       few_(Few(evidence, config.points)),
       around_(evidence),
       gate_m_(evidence.gate_m),
-      loose_(config.loose) {
+      loose_(config.loose),
+      rest_(body_model::Standing(model)) {
   for (const Chain chain : kChains) {
     if (const auto limbs = LimbsOf(model, chain)) chains_.push_back(*limbs);
   }
@@ -110,8 +114,26 @@ void LimbSearch::Add(std::vector<BodyPose> poses) {
   for (BodyPose& pose : poses) places_.push_back(std::move(pose));
 }
 
-double LimbSearch::ScoreOf(const FitResult& result) const {
-  return result.score + config_.cue_share * result.cue_cost;
+double LimbSearch::ScoreOf(const FitResult& result, const BodyPose& pose) const {
+  return result.score + config_.cue_share * result.cue_cost + config_.strain_share * Strain(pose);
+}
+
+// Squares of how far the angles of arms and legs are from standing upright, in halves of their
+// ranges.
+double LimbSearch::Strain(const BodyPose& pose) const {
+  double strain = 0.0;
+  for (const ChainLimbs& limbs : chains_) {
+    for (const int limb : {limbs.upper, limbs.lower}) {
+      int angle = model_->first_angle(limb);
+      for (const auto& dof : model_->limbs()[static_cast<std::size_t>(limb)].dofs) {
+        const double half_rad = std::max(0.1, 0.5 * (dof.angle_max_rad - dof.angle_min_rad));
+        const double off = (pose.angles_rad[angle] - rest_.angles_rad[angle]) / half_rad;
+        strain += (IsArm(limbs.chain) ? 1.0 : kLegs) * off * off;
+        ++angle;
+      }
+    }
+  }
+  return strain;
 }
 
 // All places are judged by the same pixels: those around any of them.
@@ -128,7 +150,7 @@ void LimbSearch::Shortlist(const std::optional<body_model::Floor>& floor) {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const BodyPose place = places_[i];
     const FitResult& result = quick_.Fit(few_, floor, place, std::nullopt, places_[i]);
-    scores.emplace_back(ScoreOf(result), i);
+    scores.emplace_back(ScoreOf(result, places_[i]), i);
   }
   std::sort(scores.begin(), scores.end());
   scores.resize(std::min(scores.size(), static_cast<std::size_t>(config_.tried)));
@@ -149,14 +171,14 @@ Hypothesis LimbSearch::Fitted(const std::optional<body_model::Floor>& floor, con
 std::optional<Hypothesis> LimbSearch::BestOf(const std::optional<body_model::Floor>& floor,
                                              const Hypothesis& now) {
   // Another place must be better than this one, too, with the same freedom to move.
-  double least = ScoreOf(whole_.Judge(around_, now.pose)) - config_.better;
+  double least = ScoreOf(whole_.Judge(around_, now.pose), now.pose) - config_.better;
   std::optional<Hypothesis> found;
   Hypothesis same = Fitted(floor, now, now.pose);
-  if (ScoreOf(same.result) < least) found = same;
-  least = std::min(least, ScoreOf(same.result) - config_.better);
+  if (ScoreOf(same.result, same.pose) < least) found = same;
+  least = std::min(least, ScoreOf(same.result, same.pose) - config_.better);
   for (const BodyPose& place : places_) {
     Hypothesis other = Fitted(floor, now, place);
-    const double score = ScoreOf(other.result);
+    const double score = ScoreOf(other.result, other.pose);
     if (score > least) continue;
     least = score;
     found = std::move(other);

@@ -14,10 +14,11 @@ struct LimbSearchConfig {
   double period_s = 0.1;    ///< Between two searches.
   double better = 0.03;     ///< By which another place must be better.
   double cue_share = 0.03;  ///< Of the score, for each recognised hand or face that is elsewhere.
-  double cue_m = 0.08;      ///< A hand recognised farther from the body's tells of another place.
-  int points = 500;         ///< By which places are compared,
-  int iterations = 5;       ///< and rounds;
-  int tried = 3;            ///< the best are then fitted as the whole body is.
+  double strain_share = 0.005;  ///< Of the score, for an angle at the end of its range.
+  double cue_m = 0.08;  ///< A hand recognised farther from the body's tells of another place.
+  int points = 500;     ///< By which places are compared,
+  int iterations = 5;   ///< and rounds;
+  int tried = 3;        ///< the best are then fitted as the whole body is.
   LooseEndsConfig loose;
 
   template <typename Visitor>
@@ -25,6 +26,7 @@ struct LimbSearchConfig {
     v("period_s", period_s);
     v("better", better);
     v("cue_share", cue_share);
+    v("strain_share", strain_share);
     v("cue_m", cue_m);
     v("points", points);
     v("iterations", iterations);
@@ -69,7 +71,8 @@ class LimbSearch {
                                    const ImageContext& context, const Hypothesis& now);
   Hypothesis Fitted(const std::optional<body_model::Floor>& floor, const Hypothesis& now,
                     const body_model::BodyPose& place);
-  double ScoreOf(const FitResult& result) const;
+  double ScoreOf(const FitResult& result, const body_model::BodyPose& pose) const;
+  double Strain(const body_model::BodyPose& pose) const;
 
   LimbSearchConfig config_;
   const body_model::BodyModel* model_;
@@ -79,6 +82,7 @@ class LimbSearch {
   double gate_m_;
   LooseEnds loose_;
   std::vector<ChainLimbs> chains_;
+  body_model::BodyPose rest_;
   std::size_t next_ = 0;  ///< Of chains_.
   double since_s_ = 0.0;
   std::vector<body_model::BodyPose> places_;
