@@ -13,6 +13,7 @@ using Eigen::Vector2d;
 
 constexpr double kAround_m = 0.02;  // What is measured so near to a part may be its own.
 constexpr double kUsual_m = 2.0;    // Of a person whose distance is not known.
+constexpr std::size_t kMost = 32;   // Cues of one image; those that come later do not count.
 constexpr int kMostAround_px = 4;
 
 /// Pixels of a picture become those of the depth image that covers the same view.
@@ -110,12 +111,12 @@ void SeenParts::AddHand(const scene::Hand& hand, double age_s, const Vector2d& s
   const double sigma_px =
       std::sqrt(config_.hand_px * config_.hand_px + stated_px2 + moved_px * moved_px);
   const Vector2d pixel_px = hand.centre_px + age_s * hand.velocity_px_per_s;
-  Add(Part::kHand, ScaledPixel(pixel_px, scale), sigma_px * scale.x(), view);
-  PartCue& cue = cues_.back();
-  cue.is_measured = hand.state == HandState::kMeasured;
-  if (!cue.is_measured) cue.trust = config_.merged_trust;
-  if (hand.side == scene::Side::kRight) cue.right_probability = hand.side_probability;
-  if (hand.side == scene::Side::kLeft) cue.right_probability = 1.0 - hand.side_probability;
+  PartCue* cue = Add(Part::kHand, ScaledPixel(pixel_px, scale), sigma_px * scale.x(), view);
+  if (cue == nullptr) return;
+  cue->is_measured = hand.state == HandState::kMeasured;
+  if (!cue->is_measured) cue->trust = config_.merged_trust;
+  if (hand.side == scene::Side::kRight) cue->right_probability = hand.side_probability;
+  if (hand.side == scene::Side::kLeft) cue->right_probability = 1.0 - hand.side_probability;
 }
 
 void SeenParts::AddFace(const scene::Object& face, double age_s, const Vector2d& scale,
@@ -130,12 +131,18 @@ void SeenParts::AddFace(const scene::Object& face, double age_s, const Vector2d&
   Add(Part::kFace, ScaledPixel(pixel_px, scale), sigma_px * scale.x(), view);
 }
 
-void SeenParts::Add(Part part, const Vector2d& pixel_px, double sigma_px, const DepthView& view) {
+PartCue* SeenParts::Add(Part part, const Vector2d& pixel_px, double sigma_px,
+                        const DepthView& view) {
+  const DepthCamera& camera = view.camera();
+  if (cues_.size() >= kMost || !camera.Contains(pixel_px) || !(sigma_px < camera.width_px)) {
+    return nullptr;
+  }
   PartCue& cue = cues_.emplace_back();
   cue.part = part;
-  cue.ray = view.camera().Ray(pixel_px.x(), pixel_px.y());
-  cue.sigma = sigma_px / view.camera().focal_px.x();
+  cue.ray = camera.Ray(pixel_px.x(), pixel_px.y());
+  cue.sigma = sigma_px / camera.focal_px.x();
   cue.distance_m = DepthAround(view, pixel_px);
+  return &cue;
 }
 
 }  // namespace deixis::pose_fitter

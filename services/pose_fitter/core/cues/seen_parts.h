@@ -54,7 +54,8 @@ class SeenParts {
   void AddFace(const scene::Object& face, double age_s, const Eigen::Vector2d& scale,
                const DepthView& view);
   void DoubtHandsAtFaces();
-  void Add(Part part, const Eigen::Vector2d& pixel_px, double sigma_px, const DepthView& view);
+  /// Nothing when it is of no use: out of view, as uncertain as the view is wide, or one too many.
+  PartCue* Add(Part part, const Eigen::Vector2d& pixel_px, double sigma_px, const DepthView& view);
 
   SeenPartsConfig config_;
   std::optional<scene::Hands> hands_;

@@ -75,6 +75,17 @@ TEST_F(SeenPartsTest, MeasuresTheDistanceOfAHandThatIsBeforeSomething) {
   EXPECT_FALSE(At(0).at(0).distance_m.has_value());
 }
 
+TEST_F(SeenPartsTest, LeavesOutWhatIsBesideThePictureOrMayBeAnywhere) {
+  for (const double x_px : {-1e300, -30.0, 700.0, 1e300}) {
+    parts_.Update(HandsAt(0, {x_px, 200.0}));
+    EXPECT_TRUE(At(0).empty()) << x_px;
+  }
+  scene::Hands hands = HandsAt(0, {100.0, 200.0});
+  hands.hands[0].covariance(0, 0) = 1e300;
+  parts_.Update(hands);
+  EXPECT_TRUE(At(0).empty());
+}
+
 TEST_F(SeenPartsTest, TakesTheSideFromTheTracker) {
   parts_.Update(HandsAt(0, {100.0, 200.0}));
   EXPECT_NEAR(At(0).at(0).right_probability, 0.1, 1e-9);
