@@ -66,7 +66,6 @@ const body_model::BodyPoses& PoseFitter::Track(const images::DepthImage& image,
 // Each goes to the person who is nearest to it in reaches, if anybody can have it: at the distance
 // that is measured there, or, when that is of something before or behind, at any.
 void PoseFitter::ShareCues(const std::vector<PartCue>& cues) {
-  free_cues_.clear();
   own_cues_.resize(people_.size());
   for (auto& own : own_cues_) own.clear();
   for (PartCue cue : cues) {
@@ -76,7 +75,7 @@ void PoseFitter::ShareCues(const std::vector<PartCue>& cues) {
       cue.trust = std::min(cue.trust, config_.cues.elsewhere_trust);
       owner = OwnerOf(cue);
     }
-    (owner == nullptr ? free_cues_ : *owner).push_back(cue);
+    if (owner != nullptr) owner->push_back(cue);
   }
 }
 

@@ -132,7 +132,6 @@ class PoseFitter {
   Starter starter_;
   PersonTracks tracks_;
   SeenParts parts_;
-  std::vector<PartCue> free_cues_;              ///< Nobody's.
   std::vector<std::vector<PartCue>> own_cues_;  ///< Of each of people_.
   std::vector<std::unique_ptr<FollowedPerson>> people_;
   std::vector<GonePerson> gone_;

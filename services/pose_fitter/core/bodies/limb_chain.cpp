@@ -2,13 +2,9 @@
 
 #include <algorithm>
 
+#include "services/pose_fitter/core/cues/part_cue.h"
+
 namespace deixis::pose_fitter {
-namespace {
-
-constexpr double kHandShare = 0.35;  // Of a hand, from the wrist to its middle.
-
-}  // namespace
-
 std::optional<ChainLimbs> LimbsOf(const body_model::BodyModel& model, Chain chain) {
   const std::string side = IsRight(chain) ? "right_" : "left_";
   const auto upper = model.Find(side + (IsArm(chain) ? "upper_arm" : "thigh"));

@@ -78,8 +78,8 @@ bool LimbSearch::IsDoubtful(const Hypothesis& now, const ChainLimbs& limbs) cons
 bool LimbSearch::AddHands(const std::vector<PartCue>& cues, const ChainLimbs& limbs,
                           const Hypothesis& now) {
   if (!IsArm(limbs.chain) || limbs.end < 0) return false;
-  const Vector3d hand_m =
-      0.65 * kinematics_.proximal_m(limbs.end) + 0.35 * kinematics_.distal_m(limbs.end);
+  const Vector3d hand_m = (1.0 - kHandShare) * kinematics_.proximal_m(limbs.end) +
+                          kHandShare * kinematics_.distal_m(limbs.end);
   bool is_elsewhere = false;
   for (const PartCue& cue : cues) {
     if (cue.part != Part::kHand || !cue.is_measured || !cue.distance_m) continue;

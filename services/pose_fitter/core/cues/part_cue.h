@@ -4,6 +4,10 @@
 
 namespace deixis::pose_fitter {
 
+/// Of a hand, from the wrist to the end: where a cue means that its middle is, between the wrist
+/// and the knuckle of the middle finger.
+constexpr double kHandShare = 0.35;
+
 enum class Part { kHand, kFace };
 
 /// A part of somebody that was recognised in the colour picture: it lies on a viewing ray.

@@ -382,7 +382,6 @@ void BodyFitter::Judge(const BodyEvidence& evidence) {
   }
   Score(trunk_, points.count(), explained, cost, result_);
   result_.cue_cost = cues_.Cost(evidence.cues(), kinematics_);
-  result_.cue_of_hand = cues_.cue_of_hand();
 }
 
 }  // namespace deixis::pose_fitter

@@ -9,8 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A hand's cue is between wrist and the knuckle of the middle finger, that far along the hand.
-constexpr double kHandShare = 0.35;
 constexpr double kThickness_m = 0.02;   // From what is seen of a part to its middle.
 constexpr double kAlongSigma_m = 0.03;  // Error along the ray beside that across it.
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <string>
 #include <vector>
 
@@ -20,8 +19,6 @@ struct FitResult {
   double trunk_seen =
       0.0;                ///< Share of the surface of trunk and head that is measured where it is.
   double cue_cost = 0.0;  ///< How badly hands and faces that were recognised agree: 0..1 for each.
-  std::array<int, 2> cue_of_hand{-1,
-                                 -1};  ///< Cue that the right and the left hand go with; -1 = none.
   std::vector<LimbEvidence> limbs;
 };
 
